@@ -16,9 +16,10 @@ namespace zwang::solver {
 namespace {
 
 constexpr double rank_tolerance = 1e-6;  // of singular values, relative to the largest
-/// Of an axis, where motors do not make every motion: the part that a motor must have of it. Motors that
-/// reach it only by turning the base about a centre of mass beside the axis have that offset over the radius
-/// of gyration, about 0.3 m, of it. No centre of mass is known to 3 mm, so that less is none.
+/// The least share that a motor must have of an axis, where motors do not make every motion. A motor may
+/// reach the axis only by turning the base about a centre of mass beside it. Its share is then that offset
+/// over the radius of gyration, about 0.3 m. No centre of mass is known to 3 mm, so a smaller share counts as
+/// none.
 constexpr double least_motor_share = 1e-2;
 
 /// One pass of the sweeps over the ground, the freedoms of base and joints, and one row more.
@@ -57,8 +58,8 @@ struct WhitenedRobot {
   WhitenedRows rows;
 };
 
-/// The eigenvalues of a symmetric matrix S, by Jacobi's rotations. A rotation of the axes p and q by the
-/// angle with the tangent t takes S_pq to 0:
+/// The eigenvalues of a symmetric matrix S, by Jacobi's rotations. A rotation turns the axes p and q by an
+/// angle with the tangent t and takes S_pq to 0:
 ///   t^2 + 2 theta t - 1 = 0,   theta = (S_qq - S_pp) / (2 S_pq)
 /// Each rotation takes 2 S_pq^2 from the sum of the squares beside the diagonal. Eigen's solver for matrices
 /// of any size takes 14 s to compile, the rest of this file 6 s.

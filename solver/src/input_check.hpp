@@ -1,4 +1,4 @@
-/// What every entry of the solver asks of its input before it touches anything.
+/// The checks that every entry of the solver makes of its input before it changes anything.
 #pragma once
 
 #include <Eigen/Core>

@@ -172,7 +172,7 @@ struct Solver::Workspace {
     return true;
   }
 
-  /// The same of the robot at rest, without rows of a task.
+  /// Sweeps and factorises the robot at rest, without rows of a task.
   bool sweep_at_rest() noexcept {
     load_bodies_at_rest(sweeps);
     sweeps.task_rows.clear();

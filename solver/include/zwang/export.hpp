@@ -1,6 +1,6 @@
-/// What a shared library of zwang shows: ZWANG_EXPORT stands at every class and function of a public header
-/// that is defined in a source file. Everything else is hidden, so that two versions in one process do not
-/// meet.
+/// ZWANG_EXPORT: the visible symbols of a shared library of zwang. The macro stands at every class and
+/// function of a public header that is defined in a source file. Everything else is hidden, so that two
+/// versions in one process do not meet.
 #pragma once
 
 #if defined(__GNUC__)

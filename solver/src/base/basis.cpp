@@ -54,8 +54,8 @@ void QuadraticProgram::choose_basis() noexcept {
   rank_ = static_cast<int>(basics_.size());
 }
 
-/// What stands between its bounds may move at once, as far as it adds curvature of its own: more than the
-/// rounding of what the basic variables, which follow it, add or take away.
+/// A variable between its bounds becomes superbasic at once if it adds curvature of its own. The curvature
+/// has to exceed the rounding of the basic variables, which follow it and add or take away their own.
 void QuadraticProgram::choose_superbasics() noexcept {
   superbasics_.clear();
   curved_ = true;

@@ -1,7 +1,8 @@
 // QuadraticProgram without equations: block principal pivoting (Kostreva 1978; Judice and Pires 1994).
 //
-//   solve for the free variables, the others at their bounds;  who is beyond a bound parks there, who is
-//   parked and wants away joins;  all at once, until nobody moves
+//   solve for the free variables, with the others at their bounds;
+//   a variable beyond a bound parks there, and a parked one with a way down joins, all of them at once;
+//   repeat until none moves.
 //
 // Mostly two to four rounds, where an active set takes a step for every variable. Rounds that do not lower
 // the number of those that move are allowed a few times in a row; then only the last one moves (Murty 1974).
@@ -181,9 +182,10 @@ bool QuadraticProgram::has_room(int k) const noexcept {
   return reduced_(k) < 0.0 ? z_(k) < hi_(k) : z_(k) > lo_(k);
 }
 
-/// A flat variable moves the way down and the others follow so that their gradient stays, until the first one
-/// meets its bound, as where two limits contradict each other. If that is another one, the flat one takes its
-/// place. False when none does, and where a little curvature or a slope near nothing asks for smaller steps.
+/// A flat variable moves down the slope until the first variable meets its bound, as where two limits
+/// contradict each other. The others follow so that their gradient stays. If another variable meets its
+/// bound, the flat one takes its place. False when none does. Also false where a little curvature or a slope
+/// near zero asks for smaller steps.
 bool QuadraticProgram::slide(int flat) noexcept {
   const int entering = superbasics_[index(flat)];
   const double left = factor_(flat, flat);  // of its curvature
@@ -231,7 +233,8 @@ void QuadraticProgram::park_flat_ones() noexcept {
   superbasics_.resize(index(curved));
 }
 
-/// Of the rows_. Who wants away most joins first: of two limits along one axis the nearer one pushes.
+/// Each of the rows_ changes its place. The steepest variable joins first: of two limits along one axis, the
+/// nearer one pushes.
 void QuadraticProgram::change_places() noexcept {
   std::sort(rows_.begin(), rows_.end(), [this](int k, int l) {
     const double one = std::abs(reduced_(k)), other = std::abs(reduced_(l));

@@ -173,9 +173,9 @@ int BoundedProblem::first_level() const noexcept {
 }
 
 /// Torques of least norm for p = T'tau. T is nearly a triangle: the dimensions of joints that carry no wheels
-/// come one after the other, and the last motor of an arm alone drives the last of them, so its torque is
-/// known, then the next one's. What is left, wheels mostly, shares: by T'T. Without full rank the motors do
-/// not reach every motion.
+/// come one after the other. The last motor of an arm alone drives the last of them, so its torque is known,
+/// then the next one's. The remaining motors, mostly of wheels, share their motions: by T'T. Without full
+/// rank the motors do not reach every motion.
 void BoundedProblem::factorise_motors() noexcept {
   constexpr int none = -1, several = -2;
   std::fill_n(last_of_.begin(), dimension_, none);
@@ -291,8 +291,8 @@ double BoundedProblem::largest_force(int i) noexcept {
   return length > 0.0 ? sum / (length * length) : 0.0;
 }
 
-/// The rows of a level that take part, and V_i = F'B_i and P_i = F V_i = K B_i of them and of the limits
-/// above: the row as the levels above let it act.
+/// V_i = F'B_i and P_i = F V_i = K B_i, for the rows of a level that take part and for the limits above. They
+/// are the rows as the levels above let them act.
 void BoundedProblem::project_rows(int level) noexcept {
   forces_.clear();
   motions_.clear();
@@ -348,7 +348,7 @@ void BoundedProblem::project_row(int i, int level) noexcept {
   for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
 }
 
-/// What the level's equality and force rows achieved, saturated or not, stays for the levels below:
+/// The result of the level's equality and force rows, saturated or not, stays for the levels below:
 /// B_i.dp = 0 with mu free. From then on a force w moves the robot by K w, and one more row closes its
 /// direction:
 ///

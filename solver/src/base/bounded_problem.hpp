@@ -1,20 +1,21 @@
 /// Phase 3 of the sweeps, at the base: all multipliers, bounded and by level, and the torques that make them.
 ///
-/// Everything happens in the whitened space of WhitenedRows, whose dimension is the mobility. Row i of the
-/// task has the direction B_i there, motor j the direction T_j. With p the constraint forces' sum, the rows'
-/// accelerations are g_i + B_i.p, and Gauss's principle with bounded multipliers reads
+/// The whitened space of WhitenedRows holds all quantities; its dimension is the mobility. Row i of the task
+/// has the direction B_i there, motor j the direction T_j. p is the sum of the constraint forces. The rows
+/// accelerate with g_i + B_i.p, and Gauss's principle with bounded multipliers reads, with d = b - g,
 ///
-///   min 1/2 |p|^2 - d' nu + 1/2 nu' R nu,   p = sum B_i nu_i = sum T_j tau_j,   lo <= nu <= hi,  |tau| <=
-///   limit
+///   min 1/2 |p|^2 - d' nu + 1/2 nu' R nu
+///   p = sum B_i nu_i = sum T_j tau_j,   lo <= nu <= hi,   |tau| <= limit
 ///
-/// with d = b - g. Levels are lexicographic: before level k what the equality and force rows above achieved
-/// is frozen (B_i.p stays: each row closes its direction), and higher one-sided rows are posed again and stay
-/// as well kept as they were. Within a level the force rows come first: phi is as near to 1 as the motors
-/// allow, then fixed.
+/// Levels are lexicographic. Before level k, the results of the equality and force rows above are frozen:
+/// B_i.p stays, as each row closes its direction. Higher one-sided rows are posed again and stay as well kept
+/// as they were. Within a level the force rows come first: phi is as near to 1 as the motors allow, then
+/// fixed.
 ///
-/// A sum S bounds what is pressed along its axis: if the world blocked that axis and nothing else, it would
-/// have to answer with B_S.p / |B_S|^2, to which a row along the same axis adds its nu and any other row its
-/// share B_S.B_i / |B_S|^2. From the level of S on, what is added to p keeps that inside [lo, hi].
+/// A sum S bounds the force that is pressed along its axis. If the world blocked that axis and nothing else,
+/// it would have to answer with B_S.p / |B_S|^2. A row along the same axis adds its nu to that force, and any
+/// other row its share B_S.B_i / |B_S|^2. From the level of S on, each addition to p keeps the force inside
+/// [lo, hi].
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +31,7 @@
 
 namespace zwang::solver {
 
-/// What to divide by for a length of 1; a length of 0 stays.
+/// The divisor that makes the length 1; a length of 0 stays.
 inline double nonzero(double length) noexcept {
   return length > 0.0 ? length : 1.0;
 }
@@ -65,7 +66,7 @@ class BoundedProblem {
   int opposing(int row, std::span<int> out) noexcept;
 
  private:
-  /// What the stages find out about a row.
+  /// The findings of the stages about a row.
   struct Standing {
     double reach = 0.0;  ///< |V_i|, at the present level
     double inverse_reach = 0.0;
@@ -85,8 +86,8 @@ class BoundedProblem {
     bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
     bool sum_limited = false;    ///< and so did a sum against it
 
-    /// As before the first level; what a level finds out about every row that it looks at may stay.
-    /// (One by one: for a whole struct GCC 12 emits a string instruction, which is slow to start.)
+    /// The values before the first level. The fields that a level writes for every row that it looks at may
+    /// stay. (Field by field: for a whole struct GCC 12 emits a string instruction, which is slow to start.)
     void reset() noexcept {
       reach = above = offset = nu = phi = 0.0;
       largest_force = -1.0;
@@ -219,7 +220,7 @@ class BoundedProblem {
   void release_drivers() noexcept;
   void unfold_limits() noexcept;
 
-  /// What a limit pushes; no row: none does, alone.
+  /// The force of a limit that pushes alone. Without a row, no single limit settles the motion.
   struct Push {
     int row = -1;
     double nu = 0.0;

@@ -48,7 +48,7 @@ bool BoundedProblem::share(double* rest) noexcept {
   return true;
 }
 
-/// The same of the three motions of a base that goes everywhere.
+/// The torques of least norm for the three motions of a base that goes everywhere.
 bool BoundedProblem::share_three(const double* p) noexcept {
   const double W10 = gram_(1, 0), W20 = gram_(2, 0), W21 = gram_(2, 1);
   const double y = (p[1] + W10 * p[0]) * inverse_pivots_(1);

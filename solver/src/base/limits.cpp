@@ -1,20 +1,21 @@
 // The one-sided rows of a stage: which of them are posed, and what is known of them beforehand.
 //
 // Limits along one axis are two ends of a range, ranges of several quantities, ranges of several levels.
-// Mostly one of them decides, and what they ask for tells which:
+// Mostly one of them decides, and their bounds tell which:
 //
 //   a limit beyond another one of its side            has nothing to do while that one holds
 //   a limit that contradicts one of a level above     pushes with all its force, and in vain
 //
-// Both are left out: the first, where the other one is of its own level, from all that follows (it is idle);
-// the second from a stage, with its force, against which the limit above pushes. Of the others most have
-// room, and wait: the drivers are solved for alone, and the limits that they would break join,
+// Both are left out. The first is idle: if the other limit has its own level, it is left out of all that
+// follows. The second is left out of a stage, with its force, against which the limit above pushes. Most
+// other limits have room, and wait. The drivers are solved for alone, and the limits that they would break
+// join.
 //
 //   a driver that mostly wants what such a limit forbids    pushes with all its force, and in vain, too
 //
-// What was said of the rows left out is looked at when the stage is solved, and where it does not hold, as
-// when a limit's force did not suffice, all take part. Limits that yield (with a weight) and equal
-// ones, which share their force, are never left out for another one.
+// When the stage is solved, the assumptions about the rows that were left out are checked. If one does not
+// hold, as when a limit's force did not suffice, all rows take part. Limits that yield (with a weight) and
+// equal limits, which share their force, are never left out for another one.
 #include <algorithm>
 #include <cmath>
 
@@ -35,8 +36,8 @@ bool is_beyond(double one, double other, double side) {
 
 }  // namespace
 
-/// Of limits of one level and side, along one axis, all but the nearest; where the motors do not make every
-/// motion, none, as then even a limit that has room may have to push.
+/// Marks all but the nearest of the limits of one level and side along one axis. Where the motors do not make
+/// every motion it marks none, as then even a limit that has room may have to push.
 void BoundedProblem::find_idle_limits() noexcept {
   awake_.clear();
   idle_.clear();
@@ -175,8 +176,8 @@ void BoundedProblem::fold_driver_beyond(int limit) noexcept {
   }
 }
 
-/// Whether the motion in work_ leaves the folded limits as was said: clearly room for those without force,
-/// clearly none for the others. Those in between may share a force with another one.
+/// Whether the motion in work_ leaves the folded limits as assumed: clear room for the limits without force,
+/// clearly none for the others. A limit between the two may share a force with another one.
 bool BoundedProblem::folded_limits_rest() noexcept {
   return std::all_of(folded_.begin(), folded_.end(), [this](int i) { return has_clear_room(i); });
 }
@@ -223,8 +224,8 @@ double BoundedProblem::least_room(int i) noexcept {
   return 1e3 * limit_rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
 }
 
-/// Whether the posed rows are limits that are content with the present motion: those that push stand exactly
-/// where they push to, the others have room. (At no room without a push the share between equals is open.)
+/// Whether the posed rows are limits that the present motion satisfies. A limit that pushes stands exactly at
+/// its bound, and the others have room. (At no room without a push the share between equals is open.)
 bool BoundedProblem::limits_rest(int level) noexcept {
   bool pushes = false;
   for (const int i : posed_) {

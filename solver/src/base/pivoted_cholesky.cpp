@@ -37,7 +37,7 @@ void PivotedCholesky::factorise(double tolerance) noexcept {
 
 /// Row by row, with t = G_i D:
 ///   t_k = L_ik - sum_c<k t_c G_kc        G_ik = t_k / D_k        D_i = L_ii - sum_k<i t_k G_ik
-/// False, and L is as it was, where the rows before leave too little of one to be sure of the rank.
+/// False, and L is unchanged, if the rows before leave too little of one to be sure of the rank.
 bool PivotedCholesky::factorise_in_order() noexcept {
   constexpr double ample = 1e-3;
   double* const t = column_.data();
@@ -69,8 +69,8 @@ int PivotedCholesky::next_pivot(double tolerance) const noexcept {
   return pivot;
 }
 
-/// Takes the pivots out: each time a column of W and what that column leaves of L, two lines at a time (there
-/// is one to spare):
+/// Takes the pivots out. Each step takes a column of W and its remainder of L, two lines at a time (there is
+/// one to spare):
 ///   w = L_p / root(L_pp)        L -= w w'
 void PivotedCholesky::eliminate(double tolerance) noexcept {
   double* const w = column_.data();

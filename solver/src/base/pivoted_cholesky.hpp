@@ -1,9 +1,10 @@
 /// L nu = rhs for a symmetric positive semidefinite L of any rank.
 ///
-/// Mostly every row has an ample share of its own: then L = G D G' as the rows come, with G a lower triangle
-/// of diagonal 1, and nothing has to be searched, exchanged or rooted. Where one has not, Cholesky with
-/// pivoting finds the rank, L = W W'. W stands where L was, its lines in the order of elimination: line k <
-/// rank() is the row that was the k-th pivot, so the pivots' lines are a lower triangle.
+/// Mostly every row has an ample share of its own. Then L = G D G' in the rows' given order, with G a lower
+/// triangle of diagonal 1. No row has to be searched or exchanged, and no root is taken. If a row has too
+/// little of its own, Cholesky with pivoting finds the rank, L = W W'. W stands in the place of L, its lines
+/// in the order of elimination. Line k < rank() is the row that was the k-th pivot, so the pivots' lines are
+/// a lower triangle.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +21,7 @@ class PivotedCholesky {
 
   void resize(int rows) noexcept { rows_ = rows; }
   double& L(int row, int column) noexcept { return W_(row, column); }  ///< to be set: the lower triangle
-  /// What a row is measured by, at least L_ii.
+  /// The scale of a row, at least L_ii.
   double& size(int row) noexcept { return size_(row); }
   /// A row counts as dependent when the ones before leave less than `tolerance` of its size.
   void factorise(double tolerance) noexcept;

@@ -189,10 +189,9 @@ int QuadraticProgram::price(bool first_that_helps) const noexcept {
   return entering;
 }
 
-/// Row s of what belongs to the superbasic variables:
+/// Row s of the superbasic variables, and of the factor of the reduced Hessian:
 ///   follow = E_B^-1 E_s;  reduced V = V_s - V_B follow
 ///   reduced H = (reduced V)'(reduced V) + R_s + follow' R_B follow
-/// and of the reduced Hessian's factor.
 QuadraticProgram::Curvature QuadraticProgram::add_superbasic(int s) noexcept {
   const int variable = superbasics_[index(s)];
   double* const follow = &follow_(s, 0);

@@ -2,19 +2,18 @@
 /// feasible start.
 ///
 /// A primal active-set method in reduced form (Wolfe; the basic / superbasic split of Murtagh and Saunders
-/// 1978). Variables are basic (as many as E has independent rows; they follow the others so that E z stays),
-/// superbasic (free to move) or parked (at a bound, or wherever they started). Those that start between their
-/// bounds start superbasic, so that one step settles all rows that need no bound. The objective falls at
-/// every step that moves:
+/// 1978). A variable is basic, superbasic or parked. As many are basic as E has independent rows; they follow
+/// the others so that E z stays. A superbasic variable is free to move. A parked one stays at a bound, or
+/// where it started. Variables that start between their bounds start superbasic, so that one step settles all
+/// rows that need no bound. The objective falls at every step that moves:
 ///
-///   price   at the minimum over the superbasic variables, the parked one with the steepest way down joins
-///   them step    to the new minimum; where the objective has no curvature left, along the line on which it
-///   falls block   a variable that meets a bound on the way parks there; if it was basic, a superbasic one
-///   takes its place
+///   price   the minimum over the superbasic variables is reached: the steepest parked variable joins them
+///   step    go to the new minimum; without curvature, go along the line on which the objective falls
+///   block   a variable that meets a bound parks there; if it was basic, a superbasic one takes its place
 ///
 /// Without equations, blocks of variables are tried first (block_pivoting.cpp).
 ///
-/// Singular H and dependent rows need no regularisation: a variable joins only while it adds curvature or a
+/// Singular H and dependent rows need no regularisation. A variable joins only while it adds curvature or a
 /// way down, and a way down without curvature ends at a bound. So the superbasic set always has a positive
 /// definite reduced Hessian.
 #pragma once

@@ -35,9 +35,9 @@ bool BoundedProblem::is_at_limit(const Vector& tau) const noexcept {
   return false;
 }
 
-/// What stands in the way of the rows of a level that is solved: a lower one may move it away again. Of
-/// motors that share a motion the least torques tell; where motors do not make every motion, the last level's
-/// do.
+/// The limits in the way of the rows of a solved level: a lower level may move a row away again. If motors
+/// share a motion, the least torques tell which motor stands at its limit. If the motors do not make every
+/// motion, the torques of the last level tell.
 void BoundedProblem::note_limits(int level) noexcept {
   const bool motor_limited = motors_reach_all_ && is_at_limit(torques_for(p_) ? candidate_ : tau_);
   for (const int i : posed_) {
@@ -142,7 +142,7 @@ bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
   return false;
 }
 
-/// By how much row k keeps row i from `wanted` (a direction), of a `miss` in all: an acceleration.
+/// The acceleration by which row k keeps row i from `wanted` (a direction), of a `miss` in all.
 ///   its force    B_i.B_k nu_k, against the direction
 ///   a level above, frozen: the part of the miss along B_k
 ///   a sum at its bound: the miss

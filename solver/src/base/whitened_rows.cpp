@@ -115,8 +115,7 @@ int WhitenedRows::next_pivot(int ground) const noexcept {
   return pivot;
 }
 
-/// Turns the axes from `first` to the ground's end so that x, the pivot's line there, lies on the first of
-/// them:
+/// Turns the axes from `first` to the ground's end, so that x, the pivot's line, lies on the first of them:
 ///   v = x + sign(x_0) |x| e_0        y -= (v.y) 2 / v.v  v        for the lines y of the other rows
 /// v has zeros around it, so that every loop goes over whole pairs.
 void WhitenedRows::reflect(int pivot, int first, int ground) noexcept {
@@ -190,8 +189,8 @@ void WhitenedRows::hold_ground_at_rest(const Eigen::VectorXd& bias, const Vector
   set_zero(dimensions_ - ground_end_, held_motion_.data() + ground_end_);
 }
 
-/// What is held of the motion: the base's own, and Q_held x of the triangle's solution x, which the biases
-/// ask for.
+/// The held part of the motion: the base's own, and Q_held x. x is the solution of the triangle for the
+/// biases.
 void WhitenedRows::hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept {
   double* const solution = solution_.data();
   for (int c = 0; c < base_; ++c) solution[c] = base_motion(c);

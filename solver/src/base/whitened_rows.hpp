@@ -1,17 +1,17 @@
 /// The ground taken out of the factor W that the sweeps leave, L = W W'.
 ///
-/// Reflections (Householder 1958) turn the axes of W's lines, which changes no product of two of them, until
-/// the rows of the ground, in the order of their pivots, are 0 behind a triangle. The dimensions of that
-/// triangle are what the ground holds, after the base's own three; the other ones are the motions that it
-/// leaves: their number is the mobility. So for any two rows i, k beyond the ground
+/// Reflections (Householder 1958) turn the axes of W's lines, which changes no product of two of them. They
+/// end when the rows of the ground, in the order of their pivots, are 0 behind a triangle. The ground holds
+/// the dimensions of that triangle, after the base's own three. The other dimensions are the motions that the
+/// ground leaves, and their number is the mobility. So for any two rows i, k beyond the ground
 ///
-///   A_i Mc A_k' = B_i . B_k,   Mc = M^-1 - M^-1 Jp' (Jp M^-1 Jp')^+ Jp M^-1,   B_i = the last numbers of row
-///   i of W,  W_i N,  N = the last columns of the reflections' product
+///   A_i Mc A_k' = B_i . B_k,   Mc = M^-1 - M^-1 Jp' (Jp M^-1 Jp')^+ Jp M^-1
+///   B_i = the last numbers of row i of W,  W_i N,  N = the last columns of the reflections' product
 ///
-/// and a generalised force f along them becomes p = sum B_i f_i: forces and accelerations of the constrained
+/// and a generalised force f along them becomes p = sum B_i f_i. Forces and accelerations of the constrained
 /// robot live in one small space with the identity as its inertia. Redundant ground rows (two wheels on one
 /// axle) are passed over: a row counts as dependent when the ones before leave nothing of it. A row is taken
-/// as it comes while they leave a tenth of it.
+/// in its given order while they leave a tenth of it.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,9 +49,9 @@ class WhitenedRows {
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
   double free_share(int row) const noexcept;
 
-  /// The motion h of the dimensions as the ground lets it be: its rows at `bias` (wanted acceleration less
-  /// drift, by row), what the ground holds of the base at `base_motion`: at 0 the base keeps its height, roll
-  /// and pitch.
+  /// The motion h of the dimensions under the ground. The ground's rows accelerate at `bias` (wanted
+  /// acceleration less drift, by row), and the held dimensions of the base at `base_motion`. At 0 the base
+  /// keeps its height, roll and pitch.
   void hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
                    const Vector3& base_motion = Vector3::Zero()) noexcept;
   /// The same where h is 0.

@@ -72,9 +72,9 @@ bool contains(const Range& range, double value) {
   return range.low <= value && value <= range.high;
 }
 
-/// The most acceleration towards a position bound, d before it at the speed v:
+/// The largest acceleration towards a position bound, at the distance d before it and the speed v:
 ///   d >= 0   (v_brk(d) - v) / h
-///   d < 0    what moves on outwards stops within h, -v / h; the way back begins with a_brk at most
+///   d < 0    an outward motion stops within h, -v / h; the way back starts with a_brk at most
 double acceleration_towards(double d, double v, const AxisConstraint& constraint, double h) {
   const double on_curve = (approach_speed(d, constraint, h) - v) / h;
   return d >= 0.0 ? on_curve : std::min(-v / h, std::max(on_curve, -constraint.braking));
@@ -93,9 +93,9 @@ Range acceleration_range_within(const AxisConstraint& constraint, Quantity quant
           acceleration_towards(to_high, now.velocity, constraint, h)};
 }
 
-/// The accelerations that a range allows now. One that is new, h longer than the horizon, has time to stop
-/// what is beyond it; what is inside it holds back no more than later: max(e/h, e/h0) of what is left, e >= 0
-/// or not.
+/// The accelerations that a range allows now. A new range has a longer horizon h, within which a motion
+/// outside it stops. Inside, it holds back no more than later: max(e/h, e/h0) of the remaining e, whatever
+/// the sign of e.
 Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
                          double h0) {
   const double h = quantity == Quantity::position ? constraint.position_horizon : constraint.velocity_horizon;
@@ -234,8 +234,9 @@ bool ConstraintSet::fill(const Model& model, const State& state) noexcept {
   return fill(motions_);
 }
 
-/// Ranges beside a motion driver are kept by clamping what it asks for, as long as nobody else drives its
-/// axis. Who stands outside of a position range is driven back into it: then they are rows of their own, too.
+/// A range beside a motion driver is kept by clamping the driver's target, while nothing else drives its
+/// axis. A coordinate outside of a position range is driven back into it. Then the ranges are rows of their
+/// own, too.
 bool ConstraintSet::fill(BodyMotions& motions) noexcept {
   folds_ = true;
   if (!fill_all(motions)) return false;

@@ -10,9 +10,9 @@ Ground::Ground(const Model& model) {
   });
 }
 
-/// No slip along u at the contact point P = C - R n under the wheel's centre C:
-///   u . (v + w x P) = 0,   (w, v) the wheel's twist,   u fixed to the carrier (twist (w_c, v_c)), C moving
-///   with the wheel.
+/// No slip along u at the contact point P = C - R n under the wheel's centre C. The wheel has the twist
+/// (w, v) and its carrier (w_c, v_c). The axis u is fixed to the carrier, and C moves with the wheel:
+///   u . (v + w x P) = 0
 /// As a wrench a = (P x u, u). Its rate of change gives, with the velocity v_C of the centre,
 ///   gamma = (v_C x u) . w + (w_c x u) . (v + w x P)
 Vector6 Ground::axis(int index, const Sweeps& sweeps) const noexcept {

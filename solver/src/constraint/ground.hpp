@@ -1,5 +1,5 @@
-/// What the ground holds: the base's height, roll and pitch, and under each wheel the directions that do not
-/// slip.
+/// The motions that the ground holds: the base's height, roll and pitch, and under each wheel the directions
+/// that do not slip.
 #pragma once
 
 #include <cmath>
@@ -40,8 +40,8 @@ void for_each_held_direction(const Model& model, const Visit& visit) {
   }
 }
 
-/// The rows a . A = bias of the ground of a model on the spatial accelerations A of its wheels, in the base's
-/// axes and at its origin, wheel by wheel. (The base's own height, roll and pitch need none: they are no
+/// The rows a . A = bias of a model's ground, wheel by wheel. A are the spatial accelerations of the wheels,
+/// in the base's axes and at its origin. (The base's own height, roll and pitch need no row: they are no
 /// freedoms of it.)
 class Ground {
  public:

@@ -131,16 +131,15 @@ Measurement along_bearing(const FrameMotion& f, const FrameMotion& t) {
   return result;
 }
 
-/// Of the arc through T's origin along T's x, with the centre (0, 1/k). At (x, y) in T the nearest point of
-/// the arc has the tangent t = (cos f, sin f) and the normal n = (-sin f, cos f), with
+/// The measures along the arc through T's origin along T's x, with the centre (0, 1/k). At (x, y) in T the
+/// nearest point of the arc has the tangent t = (cos f, sin f) and the normal n = (-sin f, cos f):
 ///   q sin f = k x,   q cos f = 1 - k y,   q = 1 - k o     o: the offset along n
 ///   s = s_0 + f/k    u = t.v    do = n.v    df = k u/q
-/// The row of x has u for its velocity, not ds = u/q: its multiplier is the force along t, and a range of
-/// that force is one of newtons wherever the frame is. With the accelerations of x and y as along an axis of
-/// T
+/// The row of x has u for its velocity, not ds = u/q. Its multiplier is then the force along t, and a range
+/// of that force is in newtons wherever the frame is. With the accelerations of x and y as along an axis of T
 ///   du = t.a + df do       ddo = n.a - df u
-/// The heading r = rz - f turns against the tangent with dr = drz - df. What speeds up along the path
-/// adds nothing to its row: ddr = ddrz where df is constant, and the row presses with a torque alone.
+/// The heading r = rz - f turns against the tangent with dr = drz - df. An acceleration along the path adds
+/// nothing to the heading's row: ddr = ddrz where df is constant, and the row presses with a torque alone.
 Measurement along_path(const FrameMotion& f, const FrameMotion& t, const AxisConstraint& c) {
   if (c.axis == Axis::z) return along_axis(f, t, Axis::z);
   const double k = c.curvature;

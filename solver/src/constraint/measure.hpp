@@ -1,4 +1,4 @@
-/// What a constraint measures between two frames, as numbers: the coordinate, and the unit force along it.
+/// The measure of a constraint between two frames, as numbers: the coordinate, and the unit force along it.
 #pragma once
 
 #include "zwang/solver/constraint.hpp"
@@ -14,8 +14,8 @@ inline int direction_of(Axis axis) {
   return static_cast<int>(axis) % 3;
 }
 
-/// The unit constraint force acts on F at its origin and the opposite one on T's body at the same point, both
-/// in world axes: a . (V_k - V_c) = ds and a . (A_k - A_c) + gamma = dds.
+/// The unit constraint force acts on F at its origin. The opposite force acts on T's body at the same point.
+/// Both are in world axes: a . (V_k - V_c) = ds and a . (A_k - A_c) + gamma = dds.
 struct Measurement {
   Coordinate now;
   Vector3 moment = Vector3::Zero();
@@ -28,9 +28,9 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
   return in.body >= 0 && in.body == move.body;
 }
 
-/// What the constraint measures, it measures along axes that the moved body carries. Motion counts relative
-/// to the world, and the unit force a stays as it is in the body: ds = a . V and dds = a . A + gamma, gamma 0
-/// but for a `side`.
+/// Whether the constraint measures along axes that the moved body carries. Motion then counts relative to the
+/// world, and the unit force a is constant in the body. So ds = a . V and dds = a . A + gamma, with gamma 0
+/// except for a `side`.
 inline bool is_carried(const AxisConstraint& constraint) noexcept {
   const bool has_axes = constraint.measure != Measure::distance && constraint.measure != Measure::angle &&
                         constraint.measure != Measure::bearing;

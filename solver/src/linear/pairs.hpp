@@ -83,7 +83,7 @@ inline void add_to_line(double factor, const double* x, int first, int last, dou
 }
 
 /// matrix += s x x' in lines and columns [first, last), the lower triangle: two lines and two columns at a
-/// time. What that writes above the diagonal nobody reads. `stride`: from line to line.
+/// time. The numbers that it writes above the diagonal are never read. `stride`: from line to line.
 inline void add_square(int first, int last, double s, const double* x, double* matrix, Eigen::Index stride) {
   double* line = matrix + first * stride;
   int k = first;

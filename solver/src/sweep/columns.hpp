@@ -5,13 +5,13 @@
 ///
 ///   L = W W',   W = [ F A_0,  D^-1/2 S'A of every joint ],   IA_0^-1 = F'F
 ///
-/// one line a row, one dimension a freedom of the robot, and L itself is never formed. What joint i adds to
-/// g, (10), is its dimension of W times D^-1/2 u, so g needs no sweep of its own:
+/// one line a row, one dimension a freedom of the robot, and L itself is never formed. Joint i adds to g,
+/// (10), its dimension of W times D^-1/2 u, so g needs no sweep of its own:
 ///
 ///   g = A'c + W h,   h = [ -F pA_0,  D^-1/2 u of every joint ]
 ///
-/// A row that acts on one body has one column, a row between two bodies has two. Columns are kept in the
-/// order of a walk through the tree that finishes a branch before it starts the next, so those that a joint
+/// A row that acts on one body has one column, a row between two bodies has two. The columns have the order
+/// of a walk through the tree that finishes a branch before it starts the next. So the columns that a joint
 /// carries (the rows at its body and beyond) are neighbours. The order depends on the bodies on which the
 /// rows act and is worked out again only when these change.
 #pragma once
@@ -66,7 +66,7 @@ class Columns {
   void start_sweep() noexcept;
   void carry(std::size_t body, const BodySweep& sweep, bool goes_on) noexcept;
   void finish(const Matrix6& base_inverse_factor) noexcept;
-  /// What velocities alone do along the rows.
+  /// The acceleration along the rows that velocities alone cause.
   void find_drift(const std::vector<BodySweep>& bodies) noexcept;
 
   /// Whether rows act on the body or on one that it carries.

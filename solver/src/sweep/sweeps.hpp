@@ -7,18 +7,18 @@
 ///
 /// (Phase 3, at the base, finds the multipliers: see bounded_problem.hpp.)
 ///
-/// A body's acceleration has two parts, a = c + da: c = c_p + v_p x S qd is what velocities alone give (it
-/// needs no sweep inward), da = da_p + S qdd what the joints and the base add. Everything below is about da.
+/// A body's acceleration has two parts, a = c + da. Velocities alone give c = c_p + v_p x S qd, which needs
+/// no sweep inward. The joints and the base add da = da_p + S qdd. The equations below are about da.
 ///
 /// Bellman's step. Gauss's function of the links beyond joint i, minimised over their joint accelerations for
 /// given multipliers nu, is quadratic in the part da of link i:
 ///
 ///   Z_i(da, nu) = 1/2 da' IA da + pA' da - (A nu)' da - 1/2 nu' L nu - (g - b)' nu
 ///
-/// so `A nu` is the wrench that the constraints put on the link, g the acceleration along the rows when da =
-/// 0 and nu = 0, and L the acceleration along the rows for unit multipliers (the Delassus matrix). It starts
-/// from the rigid body's own: IA = I, pA = I c + v x* I v - f_ext - weight, g = A'c, L = 0. With da = da_p +
-/// S qdd the minimum over qdd is at
+/// so `A nu` is the wrench that the constraints put on the link. g is the acceleration along the rows when
+/// da = 0 and nu = 0, and L the acceleration along the rows for unit multipliers (the Delassus matrix). The
+/// recursion starts from the rigid body: IA = I, pA = I c + v x* I v - f_ext - weight, g = A'c, L = 0. With
+/// da = da_p + S qdd the minimum over qdd is at
 ///
 ///   qdd = D^-1 (u - U'da_p + (S'A) nu),   U = IA S, D = d + S'U, u = tau - S' pA
 ///
@@ -35,10 +35,10 @@
 /// moves in rz, x and y only. L is kept as its factor W, L = W W', and g = A'c + W h (columns.hpp). Gravity
 /// acts as a force inside pA, so all accelerations are true ones.
 ///
-/// Coordinates: everything is written in the axes of the base and at its origin, in the inertial frame that
-/// coincides with the base at this instant. So nothing is transformed from link to link (the X of the
-/// textbook form are 1), a column of A is updated where it stands, and nothing depends on how far the robot
-/// is from the origin of the world.
+/// Coordinates: all quantities are written in the axes of the base and at its origin. Their frame is the
+/// inertial one that coincides with the base at this instant. So no quantity is transformed from link to link
+/// (the X of the textbook form are 1), and a column of A is updated in place. No number depends on the
+/// distance of the robot from the origin of the world.
 #pragma once
 
 #include <Eigen/Core>
@@ -114,14 +114,14 @@ struct Sweeps {
   Columns robot_rows;  ///< of the ground, then those of the base's freedoms and the joints
   Columns task_rows;
   Eigen::VectorXd free_motion;  ///< h: the acceleration by dimension that no constraint changes
-  /// What depends on the joints' positions alone is kept while they stay, as from project_velocity to solve:
-  /// with these positions the poses (but for axes that are due), and when is_articulated the articulated
-  /// inertias and W of the robot_rows. These stay while nothing but round bodies turns, all along the run of
-  /// a base on plain wheels.
+  /// The joints' positions for which the position-dependent quantities are kept, as from project_velocity to
+  /// solve. They are the poses (except axes that are due). When is_articulated, they are also the articulated
+  /// inertias and W of the robot_rows. These stay while only round bodies turn, as all along the run of a
+  /// base on plain wheels.
   Eigen::VectorXd placed_at;
   bool is_articulated = false;
-  /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions; under wheels z,
-  /// rx and ry come last in the factor, so that the lines of the others, which are free, are 0 there.
+  /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions. Under wheels z,
+  /// rx and ry come last in the factor, so that the lines of the free dimensions are 0 there.
   Matrix6 base_inverse_factor;
 };
 
@@ -146,8 +146,8 @@ bool sweep_inward(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps
 void outward_accelerations(const Model& model, const Eigen::VectorXd& motion, Sweeps& sweeps,
                            Eigen::VectorXd& qdd) noexcept;
 
-/// The constraint forces, by the base's dimensions that the ground holds, which bring the base's acceleration
-/// there, z, rx and ry, to that of `a` when nothing else acts.
+/// The constraint forces along the dimensions of the base that the ground holds: z, rx and ry. They bring its
+/// acceleration there to that of `a` when nothing else acts.
 Vector3 held_base_force(const Sweeps& sweeps, const Vector6& a) noexcept;
 
 }  // namespace zwang::solver

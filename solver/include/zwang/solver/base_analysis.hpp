@@ -1,5 +1,5 @@
-/// What a base can do, asked before it moves: mobility, the axes that it reaches, and whether its motors can
-/// make every wrench that a task may ask for.
+/// The capabilities of a base, known before it moves: its mobility and its reachable axes. A further check
+/// says whether its motors can make every wrench that a task may ask for.
 #pragma once
 
 #include <array>

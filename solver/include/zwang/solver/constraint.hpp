@@ -28,7 +28,7 @@ struct Range {
   double high = infinity;
 };
 
-/// What a statement measures between the frames `move` (F) and `in` (T).
+/// The quantity that a statement measures between the frames `move` (F) and `in` (T).
 enum class Measure {
   axis,       ///< the position or angle of F along or about one axis of T
   direction,  ///< a weighted sum of all six: a slanted axis, the normal of an edge, a coupling of two axes
@@ -38,8 +38,8 @@ enum class Measure {
               ///< row where T's origin is nearer to F's z axis than `nearest_bearing`
   speed,      ///< of F in the x-y plane of T; velocity ranges only, and no row below half of the highest
   path,  ///< the same along a piece of a path in T's x-y plane, a line or an arc that begins at T's origin
-         ///< along T's x: x is the arc length of the nearest point, and its velocity that of F along the
-         ///< tangent there; y how far F is to the left, rz F's heading from the tangent, z as an axis
+         ///< along T's x. x is the arc length of the nearest point; its velocity is that of F along the
+         ///< tangent there. y is the distance of F to the left, rz F's heading from the tangent; z: as axis
   side,  ///< a direction in the x-y plane of T whose acceleration is that of the point F, also where T turns
   turn,  ///< s = w v of axes that F's body carries: v along `coefficients`, w about z. With it a base that
          ///< cannot move sideways accelerates sideways. Ranges of s [m/s^2] are `velocity`, and make no row
@@ -56,8 +56,8 @@ struct Driver {
   double target_acceleration = 0.0;  ///< ddp
   double time_constant = 0.5;        ///< tau [s]
   Range force;                       ///< bounds of the row's multiplier [N] or [N m]
-  /// A position driver with either of these is a spring: a force row with f = k (p - s) + d (dp - ds), inside
-  /// the range `force`. [N/m, N s/m] or [N m/rad, N m s/rad]
+  /// A position driver with a stiffness or a damping is a spring: a force row. Its force is
+  /// f = k (p - s) + d (dp - ds), inside the range `force`. [N/m, N s/m] or [N m/rad, N m s/rad]
   double stiffness = 0.0;
   double damping = 0.0;
 
@@ -67,7 +67,7 @@ struct Driver {
   }
 };
 
-/// What a task says about one axis (or other measure) of a frame: at most one driver, and any ranges.
+/// A task's statement about one axis (or other measure) of a frame: at most one driver, and any ranges.
 struct AxisConstraint {
   AttachedFrame move;  ///< F
   AttachedFrame in;    ///< T; its axes carry the statement. On the same body as `move` they only orient.
@@ -92,8 +92,8 @@ struct AxisConstraint {
   double return_speed = infinity;
   int level = 1;
 
-  /// Time within which a range acts on what is beyond it, if that is longer than the set's horizon. [s] One
-  /// that is new has a longer one: what is beyond it then has time to stop.
+  /// Time within which a range acts on a coordinate outside it [s], if it is longer than the set's horizon. A
+  /// new range has a longer time, so that a motion outside it has time to stop.
   double position_horizon = limit_horizon;
   double velocity_horizon = limit_horizon;
 
@@ -178,7 +178,7 @@ class ZWANG_EXPORT ConstraintSet {
 ZWANG_EXPORT Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
                                       const Model& model, const State& state) noexcept;
 
-/// The same of what a constraint measures.
+/// The present motion along the measure of a constraint.
 ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model,
                                       const State& state) noexcept;
 ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
@@ -187,16 +187,17 @@ ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, BodyMoti
 ZWANG_EXPORT double position_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
                                 BodyMotions& motions) noexcept;
 
-/// What the braking curve uses of the acceleration that a range leaves. A base that weighs 30 % more than its
-/// model says slows down by a when it is asked for 1.3 a: 1.3 x 0.72 = 0.94 of the range. The rest is for
-/// the last millimetres, where it is late by 1.3 a h: with 1/1.3 = 0.77 it would get past its bound.
+/// The share of a range's acceleration that the braking curve uses. A base that weighs 30 % more than its
+/// model slows down by a when it is asked for 1.3 a. It then uses 1.3 x 0.72 = 0.94 of the range. The rest is
+/// for the last millimetres, where the base is late by 1.3 a h. With 1/1.3 = 0.77 it would pass its bound.
 inline constexpr double braking_share = 0.72;
 
-/// The braking curve of position limits and boundaries: the fastest approach speed at distance d that stops
-/// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
-/// a = braking_share braking, T = 4 h, d0 = a T^2. [m, m/s^2 -> m/s]
+/// The braking curve of position limits and boundaries: the fastest approach speed at a distance d. The
+/// deceleration to a stop at 0 stays within `braking`. The curve is odd in d:
+///   v = d/T for d < d0, else sqrt(2 a (d - d0/2))
+///   a = braking_share braking,   T = 4 h,   d0 = a T^2   [m, m/s^2 -> m/s]
 ZWANG_EXPORT double braking_speed(double distance, double braking, double horizon) noexcept;
-/// The same of a constraint's position range, inside as outside of it: outside, v = -min(|v|, v_ret).
+/// The braking curve of a constraint's position range, inside and outside it. Outside, v = -min(|v|, v_ret).
 ZWANG_EXPORT double approach_speed(double distance, const AxisConstraint& constraint,
                                    double horizon) noexcept;
 /// The distance at which that speed is the one that the curve allows. [m/s, m/s^2 -> m]

@@ -1,4 +1,4 @@
-/// What hangs on the joints of an arm, and what it weighs there.
+/// The links and loads that hang on the joints of an arm, and the weight of them at each joint.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace zwang::solver {
 
-/// Of every joint with a motor that turns no wheel, with the unit axis u through o, gravity g, and of all
-/// that lies beyond the joint the mass m, its centre c and its inertia J about o:
+/// Weight and inertia at every joint whose motor turns no wheel. The joint has the unit axis u through o, and
+/// g is gravity. All links beyond it have the mass m, the centre c and the inertia J about o:
 ///   weight   -u . ((c - o) x m g)   revolute,   -u . m g   prismatic     the torque or force that bears it
 ///   inertia   u . J u + d           revolute,    m + d     prismatic     d: the rotor's
-/// As `tau_ff` the weights let an arm float, and a force row presses with its own newtons and none of the
-/// arm's weight. Does not allocate, lock, throw or print after construction.
+/// With the weights as `tau_ff` an arm floats. A force row then presses with its own newtons alone, without
+/// the arm's weight. Does not allocate, lock, throw or print after construction.
 class ZWANG_EXPORT JointLoads {
  public:
   struct Load {

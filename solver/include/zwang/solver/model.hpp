@@ -50,8 +50,8 @@ struct Wheel {
   double radius = 0.0;  ///< [m]
   bool holds_rolling = true;
   bool holds_sideways = true;
-  /// Mecanum and omni wheels hold one direction only, that of the axis of the roller at the ground: the angle
-  /// about the vertical from the wheel's axis to it. [rad]
+  /// A mecanum or omni wheel holds one direction only: the axis of the roller at the ground. The angle goes
+  /// from the wheel's axis to that direction, about the vertical. [rad]
   std::optional<double> roller_angle;
 
   int held_directions() const {
@@ -59,7 +59,7 @@ struct Wheel {
   }
 };
 
-/// What a base stands on, and so which of its freedoms are left.
+/// The support of a base, which decides which of its freedoms are left.
 enum class BaseType {
   fixed,     ///< bolted to the world
   floating,  ///< six freedoms
@@ -98,8 +98,8 @@ class ZWANG_EXPORT Model {
 };
 
 /// Builds a model link by link, parents first. Throws std::invalid_argument on a model that dynamics cannot
-/// use: unknown parents, doubled names, a zero axis, non-finite numbers, a moving body with mass <= 0 or an
-/// inertia that is not positive definite or breaks the triangle rule.
+/// use. Such a model has an unknown parent, a doubled name, a zero axis or a non-finite number. Or a moving
+/// body has mass <= 0, or an inertia that is not positive definite or breaks the triangle rule.
 class ZWANG_EXPORT ModelBuilder {
  public:
   ModelBuilder(BaseType base_type, std::string base_name, const RigidInertia& base_inertia);

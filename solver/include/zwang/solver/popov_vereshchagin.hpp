@@ -60,9 +60,8 @@ class ZWANG_EXPORT PopovVereshchagin {
   /// untouched.
   [[nodiscard]] Status solve(const State& state, const std::vector<AccelerationRow>& rows,
                              ConstrainedMotion& result) noexcept;
-  /// The textbook form on a fixed base: the base accelerates with Xdd_0 (minus gravity, for a base at rest)
-  /// and the model's gravity is left out, so that all accelerations, b included, are measured against free
-  /// fall.
+  /// The textbook form on a fixed base: the base accelerates with Xdd_0 (minus gravity, for a base at rest).
+  /// The model's gravity is left out. So all accelerations, b included, are measured against free fall.
   [[nodiscard]] Status solve(const State& state, const std::vector<AccelerationRow>& rows,
                              const MotionVector& base_acceleration, ConstrainedMotion& result) noexcept;
 

@@ -61,8 +61,8 @@ struct ZWANG_EXPORT Solution {
   int iterations = 0;             ///< of the active set, all stages
 };
 
-/// The motions that the ground leaves, in coordinates y in which the robot is a unit mass: a generalised
-/// force p accelerates it with ydd = p, a motor's torque tau is the force p = T' tau.
+/// The motions that the ground leaves, in coordinates y in which the robot is a unit mass. A generalised
+/// force p accelerates it with ydd = p. A motor's torque tau is the force p = T' tau.
 struct ZWANG_EXPORT FreeMotions {
   explicit FreeMotions(const Model& model);
 
@@ -79,8 +79,9 @@ struct Settings {
   int set_capacity = 0;      ///< of the rows of one set; 0: the same
   int max_iterations = 400;  ///< hard cap of the active set, of each stage
   bool base_motion = false;  ///< FreeMotions::base is wanted
-  /// Solution::acceleration is wanted of all bodies: else of the base, of those that rows act on and of what
-  /// carries them, and those of the others stay as they were.
+  /// Solution::acceleration is wanted of all bodies. Otherwise it is computed for the base, for the bodies
+  /// that rows act on and for the bodies that carry them. The entries of the other bodies keep their old
+  /// values.
   bool every_acceleration = true;
 };
 
@@ -99,16 +100,15 @@ class ZWANG_EXPORT Solver {
   /// Blends solutions: each set of rows is solved whole, at full strength, and
   ///
   ///   tau = sum share_k tau_k
-  ///
-  /// Accelerations are affine in tau. So an equality that all sets meet is met exactly, and a range, a sum or
-  /// a motor's limit that all sets keep is kept, as the bounded quantities form convex sets. nu, phi,
-  /// `saturated` and `status` of a row are those of its own set; its residual is that of the blended motion.
+  /// Accelerations are affine in tau, and the bounded quantities form convex sets. So an equality that all
+  /// sets meet is met exactly. A range, a sum or a motor's limit that all sets keep is kept. The nu, phi,
+  /// `saturated` and `status` of a row are those of its own set. Its residual is that of the blended motion.
   [[nodiscard]] Status solve(const State& state, std::span<const RowSet> sets, Solution& solution) noexcept;
 
-  /// The rows of the first set that keep its row `row` from what it asks, the strongest first, into
-  /// `out`: rows of its level or above whose forces push it the other way or hold its axis, sums at their
-  /// bound. Returns how many; 0 for a row that got what it asked. Each has at least 1 % of the strongest
-  /// one's say. Does not allocate, lock, throw or print.
+  /// Writes into `out` the rows of the first set that keep its row `row` from its wanted acceleration, the
+  /// strongest first. Such a row has the level of `row` or one above. Its force pushes `row` the other way or
+  /// holds its axis, or it is a sum at its bound. Each has at least 1 % of the strongest one's share. Returns
+  /// their number: 0 for a row that is met. Does not allocate, lock, throw or print.
   int opposing(int row, std::span<int> out) const noexcept;
 
   /// At the last solved problem; before the next `project_velocity`. `base` is 0 unless the settings ask for
@@ -116,9 +116,9 @@ class ZWANG_EXPORT Solver {
   /// lock, throw or print.
   bool free_motions(FreeMotions& out) const noexcept;
 
-  /// What a unit force along row `row` of Solution::rows is as the p of FreeMotions, into `p`'s
-  /// first numbers; 0 where nothing moves the robot along the row; before the next `project_velocity`. Does
-  /// not allocate, lock, throw or print.
+  /// Writes a unit force along row `row` of Solution::rows, as the p of FreeMotions, into the first numbers
+  /// of `p`. They are 0 where nothing moves the robot along the row. Call it before the next
+  /// `project_velocity`. Does not allocate, lock, throw or print.
   void force_on_motions(int row, Eigen::VectorXd& p) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).

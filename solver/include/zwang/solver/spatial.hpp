@@ -211,9 +211,9 @@ struct BasicRigidInertia {
   BasicRigidInertia<Real> operator+(const BasicRigidInertia<Real>& o) const {
     return {mass + o.mass, first_moment + o.first_moment, rotational + o.rotational};
   }
-  /// The same inertia in the coordinates of a frame A in which the body frame B has the pose X_AB. With h the
-  /// first moment in A's axes, about B, the parallel axis theorem reads J_A = R J R' - (h p' + p h') - m p p'
-  /// + (2 p.h + m p.p) 1.
+  /// The same inertia in the coordinates of a frame A in which the body frame B has the pose X_AB. h is the
+  /// first moment in A's axes, about B. The parallel axis theorem then reads
+  ///   J_A = R J R' - (h p' + p h') - m p p' + (2 p.h + m p.p) 1
   BasicRigidInertia<Real> expressed_in(const BasicPose<Real>& pose) const {
     const Matrix3Of<Real>& R = pose.rotation;
     const Vector3Of<Real>& p = pose.position;

@@ -1,4 +1,4 @@
-/// What the solver is told about the robot at one instant.
+/// The solver's input about the robot at one instant.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// What the wheels say of the motion of the base.
+/// The motion of the base that the wheels report.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ struct WheelTwist {
   double slip = 0.0;  ///< [m/s] root mean square of what the held directions contradict each other by
 };
 
-/// The planar twist (vx, vy, wz) that makes the slip along all held directions of all wheels smallest in the
-/// sum of squares; the one of least norm where the wheels leave it open. With u a held direction at the
+/// The planar twist (vx, vy, wz) with the smallest slip: the sum of squares along all held directions of all
+/// wheels. Where the wheels leave the twist open, it is the one of least norm. u is a held direction at the
 /// contact point P, and s the velocity that the joints alone give that point:
-///   u . (v + w z x P) = -u . s,   a line of J V = r with V = (vx, vy, l w),
-/// where the length l makes its three columns alike, and V = (J'J)^+ J'r.
+///   u . (v + w z x P) = -u . s,   a line of J V = r with V = (vx, vy, l w)
+/// The length l gives the three columns of J one scale, and V = (J'J)^+ J'r.
 class ZWANG_EXPORT WheelOdometry {
  public:
   explicit WheelOdometry(const Model& model);
