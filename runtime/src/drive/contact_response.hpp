@@ -1,4 +1,4 @@
-/// What a contact that is felt makes of the virtual robot.
+/// The response of the virtual robot to a felt contact.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +13,13 @@
 
 namespace zwang::runtime {
 
-/// Behind the solver, so that no row works against it:
+/// It acts after the solver, so that no row works against it:
 ///     alpha M V' + bias = J' tau + w - gamma alpha M (V - V_f).
-/// w is the felt force, low-passed. The damping acts while |w| > `threshold`, and 50 ms on: without it the
-/// delay makes of a wall a spring that bounces. V_f takes V over within 1 s where V is below 2 mm/s, or 5
-/// mrad/s, and else falls to 0: a base that creeps under load presses with all of its force. In the
-/// coordinates y of solver::FreeMotions, in which alpha M is 1, with the base's twist B y and T y of the
-/// joints, that is
+/// w is the felt force, low-passed. The damping acts while |w| > `threshold`, and for 50 ms after that:
+/// without it the delay turns a wall into a spring that bounces. Where V is below 2 mm/s, or 5 mrad/s, V_f
+/// approaches V within 1 s. Otherwise V_f falls to 0. So a base that creeps under load presses with all of
+/// its force. In the coordinates y of solver::FreeMotions alpha M is 1. With the base's twist B y and the
+/// joints' motion T y, the equation is
 ///     ydd = B' w - gamma (yd - yd_f).
 /// Does not allocate, lock, throw or print after construction.
 class ContactResponse {

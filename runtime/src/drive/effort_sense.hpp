@@ -11,13 +11,13 @@
 
 namespace zwang::runtime {
 
-/// Of what the motors make, the robot's own motion takes M v' + bias, and its friction a part. The rest is
+/// The robot's own motion takes M v' + bias of the motors' torques, and its friction a part. The rest is
 ///     w = M v' + bias - J' (effort - friction),
 /// from one sample to the next, with v through the same low pass as the effort. In the coordinates y of
-/// solver::FreeMotions of a virtual robot alpha times as heavy that is
-///     B' w = (yd' + bias)/alpha - T' (effort - friction),
-/// and w that of least squares: what the ground bears stays 0. Does not allocate, lock, throw or print after
-/// construction.
+/// solver::FreeMotions of a virtual robot alpha times as heavy this is
+///     B' w = (yd' + bias)/alpha - T' (effort - friction).
+/// w is the solution of least squares: a force that the ground bears stays 0. Does not allocate, lock, throw
+/// or print after construction.
 class EffortSense {
  public:
   /// `robot`: the virtual one.
@@ -34,7 +34,7 @@ class EffortSense {
 
   /// Standard deviation of w's force, one sample. [N]
   double noise() const noexcept;
-  /// What of the wheels' dry friction is not made up for: it looks like a force. [N]
+  /// The part of the wheels' dry friction that is not compensated: it looks like a contact force. [N]
   double unknown_friction() const noexcept { return unknown_friction_; }
 
   static constexpr double sliding = 0.1;  ///< [rad/s] from which on dry friction is all there

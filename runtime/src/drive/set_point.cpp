@@ -11,7 +11,7 @@ namespace {
 
 using solver::AxisConstraint;
 
-/// What V may be along the constraint; `v` is the present velocity.
+/// The allowed range of V along the constraint; `v` is the present velocity.
 solver::Range allowed(const AxisConstraint& constraint, const solver::RowSolution& row, double v) noexcept {
   solver::Range range;
   if (constraint.velocity) range = *constraint.velocity;

@@ -23,18 +23,18 @@ struct TorqueBounds {
 
 /// The box [tau - d-, tau + d+] around `torque`, inside the motors' `limit`.
 ///
-/// With the slack s+ = high - g . tau and s- = g . tau - low of a bound, and G = sum |g_i| over joints with
-/// motors, a change delta of the torques moves it by
+/// A bound has the slack s+ = high - g . tau and s- = g . tau - low. G is the sum of |g_i| over joints with
+/// motors. A change delta of the torques moves g . tau by
 ///     g . delta = sum_(g_i > 0) g_i delta_i + sum_(g_i < 0) g_i delta_i
 ///              <= sum_(g_i > 0) |g_i| d_i+ + sum_(g_i < 0) |g_i| d_i-.
-/// So d_i+ = s+/G where g_i > 0 and d_i- = s+/G where g_i < 0 make it s+ at most, and likewise s- of the
-/// other direction. Of several bounds the least counts. A bound that `torque` breaks already has no slack.
-/// Does not allocate.
+/// So d_i+ = s+/G where g_i > 0 and d_i- = s+/G where g_i < 0 make it s+ at most, and likewise s- for the
+/// other direction. If there are several bounds, the smallest slack counts. A bound that `torque` breaks
+/// already has no slack. Does not allocate.
 void put_box(const TorqueBounds& bounds, const Eigen::VectorXd& torque, const Eigen::VectorXd& limit,
              Eigen::VectorXd& lower, Eigen::VectorXd& upper) noexcept;
 
-/// The bounds of the rows of a solved problem, of each of its sets by itself: while solutions blend,
-/// the blended torques are inside of all bounds that all sets have.
+/// The bounds of the rows of a solved problem, for each of its sets alone. While solutions blend, the blended
+/// torques keep each bound that all sets have.
 ///
 /// In the coordinates of solver::FreeMotions torques are the force p = T' tau, and row k with the force nu_k
 /// is p_k nu_k. Rows that drive share p: p = sum p_k nu_k. With D the dual of the independent ones among

@@ -62,8 +62,8 @@ std::optional<Event> VelocityDrive::look_for_samples(double time) const noexcept
   return Event{EventCode::lost_ticks, time, event_signal::time, age};
 }
 
-/// Of a drive that is sent torque limits, a wheel that is slower than its command is blocked, or rests on its
-/// limit. One that is faster, or turns the other way, does what nobody tells it.
+/// If the drive is sent torque limits, a wheel that is slower than its command is blocked, or rests on its
+/// limit. A wheel that is faster, or turns the other way, does not follow any command.
 bool VelocityDrive::differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept {
   const double high = virtual_ ? wheel.most : std::max(0.0, wheel.most);
   const double low = virtual_ ? wheel.least : std::min(0.0, wheel.least);

@@ -15,17 +15,17 @@
 
 namespace zwang::runtime {
 
-/// Samples come at the drive's rate, and late: between them the newest one is carried on. What is sent are
-/// the wheels' velocities and the box of torques around what the solver asks for. Where the drive has torque
-/// limits of its own, a virtual robot is what the rows see, and its velocities are sent. Does not allocate,
-/// lock, throw or print after construction.
+/// Samples come at the drive's rate, and late: between them the newest one is extrapolated. The drive is sent
+/// the wheels' velocities and the box of torques around the solver's result. Where the drive has torque
+/// limits of its own, the rows see a virtual robot, and its velocities are sent. Does not allocate, lock,
+/// throw or print after construction.
 class VelocityDrive {
  public:
   VelocityDrive(const lang::Robot& robot, double period, int row_capacity);
 
   /// Whether a sample that was measured at `stamp` [s] is newer than the last one.
   bool is_new(double stamp) const noexcept { return !(stamp <= measured_at_); }
-  /// Whether it has what tells a robot that feels of contacts.
+  /// Whether the sample has the measurement by which a robot feels contacts.
   bool can_feel(const Sensed& sensed) const noexcept { return !virtual_ || virtual_->can_feel(sensed); }
   void feel(const Sensed& sensed, double stamp) noexcept {
     if (virtual_) virtual_->feel(sensed, stamp);
@@ -44,20 +44,20 @@ class VelocityDrive {
   void put_virtual(double time, bool is_stopped, solver::State& state) noexcept;
   /// None came for too long: by the age of the newest one [s].
   std::optional<Event> look_for_samples(double time) const noexcept;
-  /// With a new sample: whether a wheel goes the way that it was told. Of a drive with torque limits of its
-  /// own also whether it goes as fast, and whether the base goes with its wheels: at a wall they may spin, or
-  /// the base slides along. The event has the wheel's rate, or the base's speed.
+  /// With a new sample: whether a wheel turns the way that it was told. A drive with torque limits of its own
+  /// is checked further: whether the wheel is as fast, and whether the base moves with its wheels. At a wall
+  /// the wheels may spin, or the base slides along it. The event has the wheel's rate, or the base's speed.
   std::optional<Event> look(const solver::State& measured, double time) noexcept;
 
-  /// What is sent while the task runs. `solver` has solved the rows of `scheduler`; `compensation` is
-  /// what is added to the torques against friction; `state` is what was solved, at `time` [s].
+  /// The command while the task runs. `solver` has solved the rows of `scheduler` for `state`, at `time` [s].
+  /// `compensation` is added to the torques against friction.
   void drive(const solver::Solver& solver, const Scheduler& scheduler, const solver::Solution& solution,
              const solver::State& state, double time, const Eigen::VectorXd& compensation,
              Command& command) noexcept;
-  /// What is sent in the protective stop: velocities go to 0 with `stop.deceleration`. With `qd`, of a good
+  /// The command in the protective stop: velocities go to 0 with `stop.deceleration`. With `qd`, of a good
   /// sample, torques may only take energy. Without it the drive brakes by its own encoders for as long as it
-  /// needs. The wheel at joint `suspect` (-1: none) is let go of, and so is each wheel that gets faster while
-  /// it is braked. Its motor does the contrary of what it is told, and the others take the energy.
+  /// needs. The wheel at joint `suspect` (-1: none) is released, and so is each wheel that gets faster while
+  /// it is braked. Its motor does the contrary of its command, and the others take the energy.
   void brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept;
   /// The run is over, and perhaps nothing more is sent: a drive that pushes as hard as it can is told 0.
   void rest(Command& command) const noexcept;
@@ -67,7 +67,7 @@ class VelocityDrive {
   }
   void go_on_from(VelocityDrive& before) noexcept;
 
-  /// What a wheel may differ by from what it is told, and for how long. Both are a way of 6 mm.
+  /// The tolerance of a wheel's speed, and its duration. Each pair is a way of 6 mm.
   struct Allowance {
     double slack;  ///< [m/s] at the rim, and `share` of the command
     double time;   ///< [s]
@@ -99,7 +99,7 @@ class VelocityDrive {
   };
   void remember(const Command& command) noexcept;
   void let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect) noexcept;
-  /// The same of the base's velocity in the plane, in its axes. [m/s]
+  /// Whether the base's velocity in the plane, in its axes, differs from its command. [m/s]
   bool differs(const solver::Vector3& velocity) const noexcept;
   bool differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept;
   void ramp_to_rest(Command& command) const noexcept;

@@ -50,7 +50,7 @@ VirtualRobot::VirtualRobot(const lang::Robot& robot, double period)
       base_(robot.drive, period, 3),
       qdd_(Eigen::VectorXd::Zero(robot.model.joint_count())) {
   if (robot.drive.feels_contact()) contact_.emplace(robot, period);
-  // What is told in a tick has the velocity at its end.
+  // The command of a tick has the velocity at its end.
   lag_ = std::max(0.0, lag_ + wheels_.age() - period);
   for (int j = 0; j < robot.model.joint_count(); ++j)
     turns_.push_back(robot.model.joint(j).type != solver::JointType::prismatic);
@@ -78,7 +78,7 @@ void VirtualRobot::correct(const solver::State& measured, double stamp) noexcept
   state_.base_pose = pose_.pose();
 }
 
-/// What is remembered moves along, as Odometry does it.
+/// The remembered positions move along, as in Odometry.
 void VirtualRobot::correct_joints(const Eigen::VectorXd& measured, double then, double part) noexcept {
   const std::size_t known = std::min(updates_, past_.size());
   std::size_t nearest = known;

@@ -14,19 +14,20 @@
 
 namespace zwang::runtime {
 
-/// What velocity loops are told so that their wheels turn with V. The loop of VelocityLoop answers a command
-/// c with
-///     v = (s + 1/T_i) / (T_c s^2 + s + 1/T_i) c,
-/// so it is told
-///     c = V + T_c (V' - L),   T_i L' = V' - L:
-/// the lead T_c V' of a first-order loop, and none of it once the integral has made up for it. Without an
+/// The command to velocity loops that makes their wheels turn with V. The loop of VelocityLoop answers a
+/// command c with
+///     v = (s + 1/T_i) / (T_c s^2 + s + 1/T_i) c.
+/// So the command is
+///     c = V + T_c (V' - L),   T_i L' = V' - L.
+/// It has the lead T_c V' of a first-order loop, until the integral has compensated the lag. Without an
 /// integral L stays 0.
 ///
-/// The drive takes c once a cycle and holds it. So V and V' are means over the last cycle. Else, where V'
-/// jumps between two takes, the wheel would make up for what it missed, and accelerate by up to 1.4 V'.
+/// The drive takes c once a cycle and holds it. So V and V' are means over the last cycle. Otherwise, where
+/// V' jumps between two takes, the wheel would catch up on the difference, and accelerate by up to 1.4 V'.
 ///
-/// A robot that feels is told V itself, which is half a cycle younger than the mean: a contact swings with
-/// what comes late. Pressed, its wheels stand, the integral makes up for nothing, and L fades.
+/// A robot that feels is told V itself, which is half a cycle younger than the mean: a delayed command makes
+/// a contact oscillate. When the robot is pressed, its wheels stand, the integral has no lag to compensate,
+/// and L fades.
 class LoopInput {
  public:
   /// `period` [s] of the updates, `count` velocities.
@@ -48,17 +49,17 @@ class LoopInput {
   Eigen::VectorXd value_;
 };
 
-/// It moves as the solver says, at once. The measured velocity lags behind by the drive's loop. Rows that see
-/// it would ask for more, and the loop's integral would add to that. The real base follows the virtual one by
-/// the lag
+/// It follows the solver's acceleration at once. The measured velocity lags behind by the drive's loop. Rows
+/// that see it would ask for more, and the loop's integral would add to that. The real base follows the
+/// virtual one by the lag
 ///     delay/2 + 1/(2 rate) + 1/(2 rate):
-/// half of the delay is the command's way to the wheel, a command is a mean over a cycle, and is held for
+/// half of the delay is the command's way to the wheel. A command is a mean over a cycle, and is held for
 /// one.
 ///
-/// Its pose is dead reckoning by its own wheels. Each sample corrects it by what the measured pose differs
-/// from the virtual one that the base followed then, within 1 s; joint angles likewise. Its velocities are
-/// not corrected. What a robot that feels feels accelerates it beside the solver, see ContactResponse. Does
-/// not allocate, lock, throw or print after construction.
+/// Its pose is dead reckoning by its own wheels. Each sample corrects it, within 1 s. The correction is the
+/// difference between the measured pose and the virtual pose that the base followed then. Joint angles are
+/// corrected likewise. The velocities are not corrected. The felt force accelerates the virtual robot beside
+/// the solver, see ContactResponse. Does not allocate, lock, throw or print after construction.
 class VirtualRobot {
  public:
   VirtualRobot(const lang::Robot& robot, double period);
@@ -82,7 +83,7 @@ class VirtualRobot {
   /// By the solution of `solver` at `state` to `time` [s], a tick later.
   void move(const solver::State& state, const solver::Solver& solver, const solver::Solution& solution,
             double time) noexcept;
-  /// What its wheels and its base are told to follow it.
+  /// The command to the real wheels and base that makes them follow the virtual ones.
   void tell(Command& command) const noexcept;
 
   double lag() const noexcept { return lag_; }     ///< [s]

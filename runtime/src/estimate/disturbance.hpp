@@ -1,4 +1,4 @@
-/// What the world does to the robot beyond what is commanded: a generalised-momentum observer.
+/// The forces of the world on the robot beyond its commands: a generalised-momentum observer.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,15 +11,16 @@
 
 namespace zwang::runtime {
 
-/// In the coordinates y of solver::FreeMotions the robot is a unit mass, so that its generalised momentum is
-/// yd, and a force from outside is what is left of
+/// In the coordinates y of solver::FreeMotions the robot is a unit mass, so its generalised momentum is yd.
+/// A force from outside is the remainder
 ///   p = d(yd)/dt - ydd_model - T' (tau_sent - tau_model - friction).
-/// Joints are all that it looks at: e = T p + noise is the difference between the joints' acceleration and
-/// the model's, p the one of least squares. On the base and on the joints of an arm that is the force
-///   C' w = p,   C = [B; T_arm],
-/// low-passed with the observer's time constant: r' = (w - r) / T_r. A force at the gripper counts on the
-/// base, too. Where fewer motions are free than w has entries, what the ground bears stays 0. Does not
-/// allocate, lock, throw or print after construction.
+/// The observer uses the joints alone. e = T p + noise is the difference between the joints' acceleration and
+/// the model's, and p is the solution of least squares. On the base and on the joints of an arm the force w
+/// satisfies
+///   C' w = p,   C = [B; T_arm].
+/// It is low-passed with the observer's time constant: r' = (w - r) / T_r. A force at the gripper counts on
+/// the base, too. Where fewer motions are free than w has entries, a force that the ground bears stays 0.
+/// Does not allocate, lock, throw or print after construction.
 class DisturbanceObserver {
  public:
   /// `period` [s] from one comparison to the next.
@@ -27,11 +28,11 @@ class DisturbanceObserver {
 
   /// Forgets what was commanded: the next sample is compared with nothing.
   void pause() noexcept { expects_ = false; }
-  /// What the model makes of the torques that were sent for the state, and of the joints' friction against
+  /// The model's prediction for the torques that were sent in the state, and for the joints' friction against
   /// them.
   void expect(const solver::Solver& solver, const solver::Solution& solution, const solver::State& state,
               const Eigen::VectorXd& friction, const Eigen::VectorXd& sent, double time) noexcept;
-  /// What came of it. False when there is nothing to compare with.
+  /// Compares the measured state with the prediction. False when there is no prediction.
   bool compare(const solver::State& state, double time) noexcept;
 
   /// T = 1/2 |yd|^2 of the joints' rates, qd = T yd, at the state of the last `expect`. [J]
@@ -39,7 +40,8 @@ class DisturbanceObserver {
   /// P = p . yd, what `force()` gives at these rates. [W]
   double power(const Eigen::VectorXd& qd) noexcept;
 
-  /// What the model made of the last torques: accelerations of the joints that turn a wheel or have a motor.
+  /// The model's prediction for the last torques: accelerations of the joints that turn a wheel or have a
+  /// motor.
   const Eigen::VectorXd& expected() const noexcept { return expected_; }
   /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
   const solver::Vector3& base_force() const noexcept { return filtered_; }

@@ -21,9 +21,9 @@ Matrix3 turn(double sine, double cosine) {
   return R;
 }
 
-/// The way along a constant planar twist for dt: the exponential of SE(2),
-///   x = (sin a vx - (1 - cos a) vy) / w,   y = ((1 - cos a) vx + sin a vy) / w,   a = w dt,
-/// whose factors sin a / a and (1 - cos a) / a are smooth at 0.
+/// The way along a constant planar twist for dt, by the exponential of SE(2). Its factors sin a / a and
+/// (1 - cos a) / a are smooth at 0:
+///   x = (sin a vx - (1 - cos a) vy) / w,   y = ((1 - cos a) vx + sin a vy) / w,   a = w dt
 Pose way_along(const solver::MotionVector& twist, double dt) {
   const double a = twist.angular.z() * dt;
   const double small = a * a;
@@ -108,7 +108,7 @@ bool Odometry::correct(double stamp, const Pose& measured) noexcept {
     pose.rotation = made_good.rotation * pose.rotation;
   };
   move(pose_);
-  // What is remembered moves along, or the next late measurement would be made good twice.
+  // The remembered poses move along, or the next late measurement would be corrected twice.
   for (std::size_t i = 0; i < std::min(updates_, past_.size()); ++i) move(past_[i].pose);
   return true;
 }

@@ -11,12 +11,12 @@
 
 namespace zwang::runtime {
 
-/// Of some rows the force nu is given and the motion follows: of a force, and of a driver at its bound. They
-/// are the generalised force
+/// The press of the rows whose force nu is given and whose motion follows: force rows, and drivers at their
+/// bounds. They are the generalised force
 ///   p = sum B_i nu_i
-/// on the robot's free motions (solver::FreeMotions), which turns joint j as the torque T_j . p / |T_j|^2 of
-/// its motor alone would. Where all rows hold what they ask for, it is 0. Does not allocate, lock, throw or
-/// print after construction.
+/// on the robot's free motions (solver::FreeMotions). p turns joint j as the torque T_j . p / |T_j|^2 of its
+/// motor alone would. Where all rows hold their targets, p is 0. Does not allocate, lock, throw or print
+/// after construction.
 class Press {
  public:
   explicit Press(const solver::Model& model);

@@ -1,4 +1,4 @@
-/// What can be a rotation, whoever measured it.
+/// The check whether a measured matrix is a rotation.
 #pragma once
 
 #include "zwang/solver/spatial.hpp"

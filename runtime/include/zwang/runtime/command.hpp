@@ -1,4 +1,4 @@
-/// What a drive is told for one control period.
+/// The command to a drive for one control period.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct Command {
   /// The base's velocity that `velocity` stands for: x, y [m/s] and rz [rad/s], in its axes. 0 of a drive
   /// that takes no twist.
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
-  /// What the task file's outputs are set to, in the order of Program::outputs: SI, or 0 and 1.
+  /// The values of the task file's outputs, in the order of Program::outputs: SI, or 0 and 1.
   std::vector<double> outputs;
 };
 

@@ -1,4 +1,5 @@
-/// What went wrong, or nearly: each with the time, the signal that told it, and what that read.
+/// Faults and near faults of a run: each with its time, the signal that showed it, and the value of that
+/// signal.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@ namespace zwang::runtime {
 
 enum class EventCode {
   none,
-  // Those that latch the protective stop.
+  // These codes latch the protective stop.
   bad_sample,
   lost_ticks,
   frozen,
@@ -27,7 +28,7 @@ enum class EventCode {
   joint_speed,       ///< a joint of an arm is faster than its URDF allows
   runaway,           ///< faster than the task allows, and ever faster while the motors are told to brake
   rate_contradicts,  ///< the rate of a joint is not that of its position
-  wheel_reversed,    ///< what a wheel contradicts the others by is gone when its rate is given the other sign
+  wheel_reversed,    ///< the wheels contradict each other, and agree if this one's rate has the other sign
   motors_reversed,   ///< the base accelerates against what its motors are told
   clock_back,        ///< the samples' clock went back; `value`: by how much [s], negative
   clock_stands,      ///< the samples' clock stands while their values change
@@ -37,7 +38,7 @@ enum class EventCode {
   not_followed,  ///< a wheel is faster than a drive that takes velocities was told, or turns against it, or
                  ///< stays behind where the drive has torque limits of its own; `value`: its rate
   frozen_base,   ///< the wheels roll, and the measured base stays as it was; `value`: how far they say [m]
-  // Those that are only told.
+  // These codes are only reported.
   clock_refused,  ///< time went backwards, or jumped
   clock_drift,    ///< the samples' clock is off by more than a tenth; `value`: its rate
   sample_lost,    ///< none has arrived since the last tick

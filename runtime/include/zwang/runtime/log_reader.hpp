@@ -16,7 +16,7 @@
 
 namespace zwang::runtime {
 
-/// What a log says of one of its columns.
+/// A log's description of one of its columns.
 struct ZWANG_EXPORT LoggedColumn {
   std::string name;
   std::string unit;                ///< empty for pure numbers and words
@@ -43,12 +43,13 @@ struct LogContents {
   double begin = 0.0;                             ///< [s] of the first record
   double end = 0.0;                               ///< [s] of the last one
   bool closed = false;                            ///< the log was ended properly
-  /// What could not be read, and where; empty when all is well.
+  /// The parts that could not be read, each with its place; empty when all is well.
   std::vector<std::string> damage;
 };
 
 /// The files of a run's log: `log.mcap` in its folder, or `log_0.mcap`, `log_1.mcap` and so on in their
-/// order. What is no folder is a file of its own. Throws std::runtime_error where the folder holds no log.
+/// order. A path that is no folder is itself the file. Throws std::runtime_error where the folder holds no
+/// log.
 ZWANG_EXPORT std::vector<std::filesystem::path> log_files(const std::filesystem::path& run);
 
 /// The records of a log, one by one. A cut or changed file is read as far as it is whole.

@@ -16,7 +16,7 @@
 
 namespace zwang::runtime {
 
-/// What the simulator measured, not what the controller believes.
+/// The simulator's measurements of an object, not the beliefs of the controller.
 struct ObjectTruth {
   std::string name;
   double force = 0.0;  ///< [N] normal force that the first robot presses on it with, now, all contacts
@@ -85,13 +85,13 @@ struct Truth {
   std::vector<std::vector<solver::ForceVector>> wrenches;
 };
 
-/// What a hand presses with on the first robot's base, beside everything that the scene says.
+/// The force of a hand on the first robot's base, in addition to the scene's forces.
 struct Push {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();     ///< [m] where, in the base's axes, as high as its origin
   Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< [N] in the world's axes
 };
 
-/// What a hand presses with on any body.
+/// The wrench of a hand on any body.
 struct BodyPush {
   int robot = 0;      ///< 0 is the first one; -1: an object
   int body = 0;       ///< of the robot's model; or the object, by its number in the scene
@@ -157,8 +157,8 @@ class ZWANG_EXPORT MujocoPlant : public Plant {
   /// whatever stands in its way. At least one point. After the last one an object with a mass is let go. A
   /// fixed object meets the robot as if it stood: the dampers of its contacts do not see how fast it moves.
   void move_object(std::size_t object, std::vector<lang::Waypoint> motion);
-  /// Whether the dock of an object or robot, by its number in `Truth::objects`, catches and holds; at first
-  /// each does. One that lets go has not latched.
+  /// Whether the dock of an object or robot, by its number in `Truth::objects`, catches and holds. At first
+  /// each does. A dock that lets go has not latched.
   void set_dock(std::size_t owner, bool holds) noexcept;
   /// As if the simulation had failed.
   void diverge() noexcept;

@@ -13,12 +13,12 @@
 
 namespace zwang::runtime {
 
-/// What a signal of the task file was last measured to be. Only the value of the signal's own type counts.
+/// The last measurement of a signal of the task file. Only the value of the signal's own type counts.
 ///
-/// The plant may leave a sample here until the next one comes, or for one tick only: a sample with the stamp
-/// of the last one is the last one. The runtime keeps the latest valid sample. The signal is invalid once
-/// that is older than the task file's `stale_after`. A signal that was never received ages from the start of
-/// the run. A sample is ignored if it is not `valid`, is of another type than the signal, or holds a
+/// The plant may leave a sample here until the next one comes, or for one tick only. A sample with the stamp
+/// of its predecessor is the same sample. The runtime keeps the latest valid sample. The signal is invalid
+/// once that is older than the task file's `stale_after`. A signal that was never received ages from the
+/// start of the run. A sample is ignored if it is not `valid`, is of another type than the signal, or holds a
 /// non-finite number or an invalid rotation. It is ignored, too, if it is older than its predecessor, or
 /// stamped after the snapshot.
 struct SignalSample {
@@ -55,11 +55,11 @@ struct Sensed {
   /// same stamp again is the same sample, which the runner carries on to `time`. A torque drive's state is of
   /// now.
   std::optional<double> measured_at;
-  /// Of a robot that `feels` by a wrench: what pressed on the base when the state was measured, in the axes
-  /// of the sensor's frame and about its origin. [N m, N]
+  /// For a robot that `feels` by a wrench: the wrench on the base when the state was measured. It is in the
+  /// axes of the sensor's frame and about its origin. [N m, N]
   std::optional<solver::ForceVector> contact_wrench;
-  /// Of a robot that `feels` by effort: the motors' torques [N m], one entry a joint, then. Empty: not
-  /// measured.
+  /// For a robot that `feels` by effort: the motors' torques when the state was measured [N m], one entry a
+  /// joint. Empty: not measured.
   Eigen::VectorXd effort;
   /// Whether the state's base pose and twist are measured; if so, say it on every snapshot. Else the runtime
   /// reckons them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll

@@ -25,7 +25,7 @@ struct Column {
   bool is_input = false;           ///< for a replay only: left out of the CSV
 };
 
-/// What a log holds beside its records: enough to run the same thing again.
+/// The context of a log beside its records: enough to run the same thing again.
 struct LogContext {
   std::vector<lang::Source> sources;         ///< every file that was read; a column's span counts them
   std::map<std::string, std::string> facts;  ///< "seed": "0", "version": ...
@@ -40,7 +40,7 @@ class ZWANG_EXPORT LogSink {
   virtual std::string write(std::span<const double> values) = 0;     ///< one value a column; NaN: blank
   /// Before the next record, or the end, so many were dropped.
   virtual std::string skip(std::uint64_t records);
-  /// What is known only when the run is over, once, behind the last record.
+  /// The facts that are known only when the run is over. Called once, after the last record.
   virtual std::string conclude(const std::map<std::string, std::string>& facts);
   virtual std::string flush() = 0;  ///< now and then, when there is nothing to write
   virtual std::string close() = 0;

@@ -49,9 +49,9 @@ struct ReplayPart {
   lang::Program program;
   bool has_program_of_before = false;  ///< the log was only cut into files
 };
-/// The same of a run whose log is in several files, or whose program was swapped under way: each log begins
-/// where the last one ends. Throws std::runtime_error, too, when a program does not fit the robot of the one
-/// before.
+/// Replays a run whose log is in several files, or whose program was swapped under way. Each log starts where
+/// its predecessor ends. Throws std::runtime_error, too, when a program does not fit the robot of the program
+/// before it.
 ZWANG_EXPORT ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& settings);
 
 }  // namespace zwang::runtime

@@ -97,16 +97,17 @@ class ZWANG_EXPORT Runner {
   /// The torques to send for this sample [N m] or [N]; always finite and within the joints' limits. Goes on
   /// braking and holding after the run is over. Does not allocate, lock, throw or print.
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
-  /// What that step is to a drive of any kind, for Plant::follow. A drive that takes velocities needs it.
+  /// The command of that step to a drive of any kind, for Plant::follow. A drive that takes velocities needs
+  /// it.
   const Command& command() const noexcept;
-  /// What the task file's outputs are set to after that step, in the order of Program::outputs: SI, or 0 and
-  /// 1. From the end of the run or a stop on what their `stop` says.
+  /// The values of the task file's outputs after that step, in the order of Program::outputs: SI, or 0 and 1.
+  /// From the end of the run or a stop on, they are the values that their `stop` gives.
   std::span<const double> outputs() const noexcept;
 
   double period() const noexcept;  ///< [s] of its steps
-  /// For LogContext::facts: the task, its parameters as they stand, the settings, and by what it is computed.
-  /// What a replay needs beside the files and what is logged, but for `robot` and `scene`, where LoadOptions
-  /// named one.
+  /// For LogContext::facts: the task, its present parameters, the settings, and the software that computes
+  /// it. A replay needs these facts beside the files and the logged values. It also needs `robot` and
+  /// `scene`, where LoadOptions named one.
   std::map<std::string, std::string> facts() const;
   RunState state() const noexcept;
   /// The outcome is known and the base stands (or has had the time to).
@@ -120,12 +121,12 @@ class ZWANG_EXPORT Runner {
   /// is unknown and a value outside the parameter's range. Does not allocate.
   bool set_parameter(std::string_view name, double value) noexcept;
 
-  /// From the next step on the program of `next` runs, from its start task, on the same robot: build it on
-  /// another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
-  /// events stay; what the torques differ by fades within `handover`; the recorder is let go, as columns may
-  /// differ. `next` gets the old program. Snapshots stay as they are, laid out for the program that the
-  /// runner was made with: the next one finds its signals among them by name, type and frame. Where it is
-  /// refused nothing happens, and the result says why. Does not allocate, lock, throw or print.
+  /// From the next step on the program of `next` runs, from its start task, on the same robot. Build `next`
+  /// on another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
+  /// events stay. The difference of the torques fades within `handover`. The recorder is let go, as columns
+  /// may differ. `next` gets the old program. Snapshots keep the layout of the program that the runner was
+  /// made with. The next program finds its signals among them by name, type and frame. If the swap is refused
+  /// nothing happens, and the result says why. Does not allocate, lock, throw or print.
   SwapResult swap_program(Runner& next) noexcept;
   static constexpr double handover = 0.2;  ///< [s]
 
@@ -146,8 +147,8 @@ class ZWANG_EXPORT Runner {
   const std::vector<Event>& events() const noexcept;  ///< the first 1024
   std::uint64_t event_count() const noexcept;
   std::string event_signal(const Event& event) const;  ///< its name, "front_left_wheel.tau". Allocates.
-  /// An estimate, from joints and torques alone, of what the world presses on the base with: x, y [N] and rz
-  /// [N m] at its origin, in its axes. Low-passed with 20 ms.
+  /// An estimate of the contact force on the base, from joints and torques alone: x, y [N] and rz [N m] at
+  /// its origin, in its axes. Low-passed with 20 ms.
   solver::Vector3 estimated_force() const noexcept;
   /// Where the base and its joints are after the last step, as the task sees them: in the world, the twist in
   /// the base's axes. A drive with a virtual robot: that one's.

@@ -63,26 +63,26 @@ class ZWANG_EXPORT SafetyGuard {
   SafetyGuard(SafetyGuard&&) noexcept;
   SafetyGuard& operator=(SafetyGuard&&) noexcept;
 
-  /// Every sample comes through here first. Numbers that are not finite latch the stop at once, and so do
-  /// `max_lost_ticks` without a good sample, with samples that say to move and stand where the last one did,
-  /// or with positions that rolled evenly and from one sample to the next do not change any more.
-  /// Values and stamp are judged apart. While the stop is latched any good values are `good` or `untimely`,
-  /// and a stamp that went back or jumped is where the clock goes on from. A sample with the stamp and the
-  /// values of the last one has not arrived.
+  /// Every sample comes through here first. A number that is not finite latches the stop at once.
+  /// `max_lost_ticks` in a row latch it, too, if they have no good sample or a frozen one. A frozen sample
+  /// reports motion but stands where the last one did. It is frozen, too, if positions that rolled evenly do
+  /// not change any more. Values and stamp are judged apart. While the stop is latched any good values are
+  /// `good` or `untimely`. If a stamp went back or jumped, the clock goes on from it. A sample with the stamp
+  /// and the values of its predecessor has not arrived.
   SampleStatus admit(const Sensed& sensed) noexcept;
 
-  /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
-  /// the brake's when the stop is latched, from memory on a frozen sample; an arm is held where it was. A
-  /// joint of an arm that is faster than it may be, or could hardly be kept in its travel, latches the stop.
-  /// `tau` keeps its size. Call it when `admit` said good or untimely. A stop that brakes by the model sends
-  /// `wanted` of the wheels, cut to the limits.
+  /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew.
+  /// When the stop is latched they are the brake's, from memory on a frozen sample, and an arm is held in its
+  /// place. A joint of an arm latches the stop if it is faster than its limit or too fast for the rest of its
+  /// travel. `tau` keeps its size. Call it when `admit` said good or untimely. A stop that brakes by the
+  /// model sends `wanted` of the wheels, cut to the limits.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
-  /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched those
-  /// that brake what the last good sample said, and bear an arm.
+  /// The torques to send when `admit` refused the sample: the last ones. When the stop is latched, they brake
+  /// the rates of the last good sample, and bear an arm.
   GuardStatus output_blind(Eigen::VectorXd& tau) noexcept;
 
-  /// Latches the protective stop, for one of the codes that do. The first reason is kept. What told it, and
-  /// what that read, is for the event.
+  /// Latches the protective stop, for one of the codes that do. The first reason is kept. The event also
+  /// holds the signal that showed it and that signal's value.
   void stop(EventCode reason, int signal = -1, double value = 0.0) noexcept;
   /// From now on a stop neither believes nor remembers the wheels' rates: whoever knows the base by other
   /// means says what its wheels are to do. False: it does again.
@@ -97,9 +97,9 @@ class ZWANG_EXPORT SafetyGuard {
   double clock_shift() const noexcept { return clock_shift_; }
 
   const GuardCounters& counters() const noexcept { return counters_; }
-  /// What latched the stop; its code is `none` while nothing did.
+  /// The event that latched the stop; its code is `none` while the stop is not latched.
   const Event& stop_event() const noexcept { return stop_event_; }
-  /// What was wrong with the sample that `admit` refused last.
+  /// The fault of the sample that `admit` refused last.
   const Event& refusal() const noexcept { return refusal_; }
 
  private:

@@ -18,9 +18,10 @@ struct ExpectationResult {
   std::string text;
   lang::Span span;
   bool held = false;
-  /// What was left, as a share of the threshold (of `within`, of its time): negative when it was not held.
+  /// The margin that was left, as a share of the threshold (of `within`, of its time). Negative: it did not
+  /// hold.
   std::optional<double> margin;
-  /// The figure behind it: what the comparison that decided compares, then. Of `within`, how long it took
+  /// The figure behind it, which the deciding comparison compares at that time. For `within`, the time taken
   /// [s].
   std::optional<double> value;
   std::string unit;   ///< of `value`, SI
@@ -34,7 +35,7 @@ struct PartnerResult {
   std::string because;  ///< of a stop, and of a base that may still move
 };
 
-/// What happened in a run, for a report that shows it without its log. Long lists are cut.
+/// The events of a run, for a report that shows it without its log. Long lists are cut.
 struct CellStory {
   struct Step {
     double time = 0.0;  ///< [s]

@@ -58,9 +58,10 @@ using BaseTruthValues = std::array<double, 8>;
 /// In the order of the columns. `x`, `y` [m] and `yaw` [rad] are those of the base in the world.
 ZWANG_EXPORT BaseTruthValues base_truth_values(double x, double y, double yaw,
                                                const BaseTruth& base) noexcept;
-/// Those, then the force on each object and other robot of the scene, and the places of those that move.
+/// The columns of the base, then the force on each object and other robot of the scene, and the places of the
+/// movable ones.
 ZWANG_EXPORT std::vector<Column> truth_columns(const lang::Scene& scene);
-/// In the order of those columns, as many values.
+/// The values of these columns, in their order.
 ZWANG_EXPORT void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
@@ -83,10 +84,10 @@ class ZWANG_EXPORT ScenePlant : public Plant {
   PlantStatus follow(const Command& command) noexcept override;
   /// On the first robot, from the next step on, until another one; finite.
   void set_push(const Push& push) noexcept;
-  /// What a hand does from the next step on, its push included. A signal that is blocked is measured as
-  /// `lost` in a script. A fault acts as one of the scene and goes before it. An object that is sent
-  /// somewhere goes there straight and evenly, whatever stands in its way; there one with a mass is let go.
-  /// `hand` has as many signals and faults as `idle_hand` of the program.
+  /// A hand's actions from the next step on, its push included. A blocked signal is measured as `lost` in a
+  /// script. A fault acts as one of the scene and goes before it. An object that is sent somewhere goes there
+  /// straight and evenly, through any obstacle. An object with a mass is let go when it arrives. `hand` has
+  /// as many signals and faults as `idle_hand` of the program.
   void set_hand(const Hand& hand);
   /// At the end of a run: a base that still leans stands up or falls, without torque, within 1 s.
   void end_lean() noexcept;

@@ -36,7 +36,7 @@ enum class Cause {
 
 ZWANG_EXPORT const char* to_string(Cause cause) noexcept;
 
-/// What kept the run out of the task that it was on its way to.
+/// The reason that kept the run out of the next task.
 enum class Refusal {
   none,
   require,   ///< the task's `require` was false or unknown: `failed`
@@ -87,7 +87,7 @@ struct Excursion {
   double distance = 0.0;  ///< how far outside [m] or [rad]
 };
 
-/// What the last solution said of an axis's driver.
+/// The last solution's values for an axis's driver.
 struct AxisReading {
   /// nu, or phi f of a force driver [N] or [N m]; while a switch blends, of all drivers of the axis by the
   /// shares of their sets.
@@ -100,8 +100,9 @@ struct AxisReading {
 /// locks, throws or prints, except where a member says so.
 class ZWANG_EXPORT Scheduler {
  public:
-  /// The program is copied. Throws std::invalid_argument on a program without tasks or with an index out of
-  /// range, with a part of the language that the runtime does not run yet, or a period that is not positive.
+  /// The program is copied. Throws std::invalid_argument on a program without tasks, with an index out of
+  /// range, or with a part of the language that the runtime does not run yet. Throws it, too, if the period
+  /// is not positive.
   Scheduler(const lang::Program& program, double period);
   ~Scheduler();
   Scheduler(Scheduler&&) noexcept;
@@ -110,11 +111,11 @@ class ZWANG_EXPORT Scheduler {
   /// Frames, guards, at most one transition, `set`, `here`, and the constraints in force now. The sample must
   /// be finite and later than the last one.
   void tick(const Sensed& sensed) noexcept;
-  /// What the world presses on the base with, as the conditions of the next tick know it: x, y [N] and rz [N
-  /// m] at its origin and in its axes. NaN: unknown.
+  /// The contact force on the base that the conditions of the next tick read: x, y [N] and rz [N m] at its
+  /// origin and in its axes. NaN: unknown.
   void estimate_force(const solver::Vector3& force) noexcept;
-  /// The wrenches on the frames that conditions and drivers ask for. `p` is what pushes the robot along its
-  /// free motions, in the order of `motions`, at the state of the last tick. `dt` [s] since the last one.
+  /// The wrenches on the frames that conditions and drivers ask for. `p` pushes the robot along its free
+  /// motions, in the order of `motions`, at the state of the last tick. `dt` [s] since the last one.
   void estimate_wrenches(const solver::FreeMotions& motions, const Eigen::VectorXd& p, double dt) noexcept;
   /// Once a tick, behind the last `observe`: what drivers build up, and how heavy the robot is along those
   /// that yield.
@@ -125,7 +126,7 @@ class ZWANG_EXPORT Scheduler {
   void stop_outputs() noexcept;
   /// An output has this value from now on, until a task sets it.
   void set_output(int index, double value) noexcept;
-  /// What the solver made of the rows of `row_sets()`: the guards of the next tick read it.
+  /// The solution for the rows of `row_sets()`: the guards of the next tick read it.
   void observe(const solver::Solution& solution) noexcept;
 
   /// How many sets of constraints are in force: one, or up to three while a switch blends. Set 0 is that of
@@ -170,9 +171,9 @@ class ZWANG_EXPORT Scheduler {
   double signal_age(int signal) const noexcept;  ///< [s]; since the start of the run when never received
   const SignalSample& signal_sample(int signal) const noexcept;  ///< the latest valid one
 
-  /// The program's tasks, each with the robot's limits as the group `limits` where neither it nor `always`
-  /// gives any, then the two that brake, `done` and `failed`, then `always`, whose groups and exits are in
-  /// force throughout.
+  /// The program's tasks, then the two that brake, `done` and `failed`, then `always`. A task has the robot's
+  /// limits as the group `limits` where neither it nor `always` gives any. The groups and exits of `always`
+  /// are in force throughout.
   const std::vector<lang::Task>& tasks() const noexcept;
   int program_task_count() const noexcept;
   int always_task() const noexcept;
@@ -192,10 +193,10 @@ class ZWANG_EXPORT Scheduler {
   lang::Span where(const Transition& transition) const noexcept;
   /// Of a refused `set`: the frame whose pose is not known.
   const std::string& unknown_frame(const Transition& transition) const noexcept;
-  /// What the exits of a task, or of `always`, waited for: as they stood when the task was left last, and of
-  /// the active one as they stand. Allocates.
+  /// The state of the exits of a task, or of `always`, when the task was left last. For the active task it is
+  /// the present state. Allocates.
   WaitedTask waited(int task) const;
-  /// What the `require` of a task was when it was asked last. Allocates.
+  /// The state of the `require` of a task at its last evaluation. Allocates.
   WaitedExit required(int task) const;
   /// Whether exits, timeouts and attempts lead from the task to `done`; `back` counts as if it did, and the
   /// exits of `always` do not count.

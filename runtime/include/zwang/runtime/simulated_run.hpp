@@ -7,7 +7,7 @@
 
 namespace zwang::runtime {
 
-/// What a host adds to the loop: it makes the ticks, and looks on.
+/// The part of the host in the loop: it makes the ticks, and observes.
 class ZWANG_EXPORT SimulatedRunHost {
  public:
   virtual ~SimulatedRunHost() = default;

@@ -58,7 +58,7 @@ struct WaitedTask {
   std::vector<WaitedExit> exits;
 };
 
-/// What decided that the run does not reach `done`.
+/// The cause that keeps the run from `done`.
 enum class WhyCause {
   waiting,      ///< nothing yet: the run goes on, or was ended from outside
   timeout,      ///< of the task
