@@ -13,32 +13,34 @@
 
 namespace zwang::runtime {
 
-/// A motor j that gives tau_j + f instead of tau_j is a force p = T_j f on the robot, along one direction of
-/// its free motions, and of a size that its own command tells:
+/// If motor j gives tau_j + f instead of tau_j, the robot feels a force p = T_j f. It has one direction of
+/// the free motions, and its own command tells its size:
 ///   lost     f = -tau_j
 ///   flipped  f = -2 tau_j
 ///   stuck    f = const - tau_j
-/// from the instant on at which it differs from nothing. Contact can have that direction, too: the corner of
-/// a differential base, as far out as its wheel. Three things tell them apart.
-///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
-///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's. Where something was hit less than
-///    `after_a_hit` ago it has to drive the robot by `least_way` as well: a base that turns about a corner at
-///    the wall leans on it with what the wheel beside it is told, evenly, and that force does no work. That
-///    of a padded wall takes work, first by its damper, then by its spring, and is even in between.
-///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
-///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
-///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
-///    told nothing is so found between two hits. A cart in tow moves along, too, and its pull turns slowly
-///    through all directions in a bend: a force that came into this one slower than in `turning` is no
-///    motor's. Not one that was seen to obey since it is told something (Obedience): what is as large as its
-///    command is something else then.
-///  - Contact comes before the command that answers it: where p jumps out of quiet to more than any fault
-///    makes of what the motor was told until then, 2 max|tau_j|, something is touched. However soft it is,
-///    p stays its own until it has pressed `left_behind` times as hard as what is claimed, or is quiet again.
-/// What cannot be told apart: a wheel that stands, against a wall that bears what it does not give; and where
-/// all driven wheels push in the same direction, as those of a car do. They are not watched. A motor without
-/// torque that is told to give none is not noticed, and does no harm. Does not allocate, lock, throw or print
-/// after construction.
+/// The fault shows from the instant at which f is not 0. Contact can have the same direction, too: the corner
+/// of a differential base, as far out as its wheel. Three criteria tell a fault from contact.
+///  - Size. Contact grows from nothing through that size to another one. A motor's force has the size at
+///    `entry` after its onset out of quiet, and keeps it `closely` for `dwell`. Where a hit is less than
+///    `after_a_hit` old, the force also has to drive the robot by `least_way`. A base that turns about a
+///    corner at the wall leans on it evenly, with the command of the wheel beside it, and that force does no
+///    work. The force of a padded wall takes work, first by its damper, then by its spring, and is even in
+///    between.
+///  - Place. Where the wheel rolls on by `travel`, a contact between the robot and a standing object gives
+///    way or grows. A motor's force keeps its direction and size `closely` meanwhile, farther than a spring
+///    of the same depth does (ContactDepth). Its onset does not matter. So a motor that failed without a
+///    command is found between two hits. A cart in tow moves along, too, and in a bend its pull turns slowly
+///    through all directions. So a force that came into this direction slower than in `turning` is not a
+///    motor's. A motor that obeyed since its command started (Obedience) is not claimed: a force as large as
+///    its command has another source.
+///  - Order. Contact precedes the command that answers it. A fault makes at most 2 max|tau_j| of the motor's
+///    commands until then. If p jumps out of quiet to more, there is a contact. However soft it is, p counts
+///    as its force. This ends when p has pressed `left_behind` times as hard as the claim, or is quiet again.
+///
+/// Two cases cannot be told apart and are not watched. In the first, a wheel stands, and a wall bears its
+/// missing torque. In the second, all driven wheels push in the same direction, as on a car. A motor without
+/// torque is not noticed while its command is 0, and does no harm then. Does not allocate, lock, throw or
+/// print after construction.
 class ActuatorWatch {
  public:
   ActuatorWatch(const lang::Robot& robot, double period);
@@ -95,7 +97,7 @@ class ActuatorWatch {
     bool is_armed = false;
     Obedience obedience;
   };
-  /// What is left of a force when a motor explains it.
+  /// The remainder of a force after a motor's share.
   struct Fit {
     double f = 0.0, tau = 0.0;     ///< [N m]
     double s = 0.0;                ///< |T_j|^2

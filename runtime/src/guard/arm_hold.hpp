@@ -8,11 +8,11 @@
 
 namespace zwang::runtime {
 
-/// Of each joint with a motor that carries no wheel: the torque that bears what hangs on it, and a spring and
-/// a damper to where it was when the stop latched:
+/// The torque for each joint with a motor that carries no wheel. It bears the weight on the joint, and adds a
+/// spring and a damper to the position at the onset of the stop:
 ///   tau = g(q) + I w^2 (q_hold - q) - 2 I w qd,   w = 20 rad/s
-/// I is the inertia about the joint of everything beyond it, so that the arm swings in like one mass.
-/// Does not allocate, lock, throw or print after construction.
+/// I is the inertia of all parts beyond the joint, about its axis, so the arm swings in like one mass. Does
+/// not allocate, lock, throw or print after construction.
 class ArmHold {
  public:
   explicit ArmHold(const solver::Model& model);

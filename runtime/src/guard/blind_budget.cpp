@@ -194,8 +194,8 @@ void BlindBudget::slacken(Eigen::VectorXd& tau) const noexcept {
   }
 }
 
-/// [s] in which a contact moves a rim by as many counts as are an answer, where it was pressed with what
-/// gives that acceleration [m/s^2], and is let go.
+/// The time [s] in which a released contact moves a rim by as many counts as make an answer. `acceleration`
+/// [m/s^2] is the one of the force that pressed the contact.
 double BlindBudget::time_of_counts(double acceleration) const noexcept {
   if (!std::isfinite(rim_step_) || !(acceleration > 0.0)) return 0.0;
   return std::min(longest_count, std::sqrt(2.0 * (signs_of_life + 1) * rim_step_ / acceleration));

@@ -13,15 +13,15 @@
 
 namespace zwang::runtime {
 
-/// A sign of life is a change of any driven wheel's position. In between the model moves the base by its
-/// torques, from the rates v of the last sign less `slowest` of each rim:
+/// A sign of life is a change of any driven wheel's position. Between two signs the model moves the base by
+/// its torques. It starts at the rates v of the last sign less `slowest` of each rim:
 ///   s = integral of max_j r_j |v_j| dt,   v' = T yd' of BlindMotion and FeltContact.
-/// When s is beyond the budget S = max(`least_budget`, 4 d r), d the least step that was ever counted, or
-/// that of the robot file, the motors give back what v says, whatever the mass: a base that is free stands
-/// again, one at a wall comes off it. Two signs of life meanwhile end that; if there are none, nothing is
-/// known of the base. Above `look_below` nobody waits longer than for lost samples. No diagnosis: dead
-/// encoders, a driver that repeats itself, motors that are off and a brake that is on are one. Does not
-/// allocate, lock, throw or print after construction.
+/// The budget is S = max(`least_budget`, 4 d r), with d the least step that was ever counted, or that of the
+/// robot file. When s exceeds S, the motors take back the motion v, whatever the mass. A free base then
+/// stands again, and a base at a wall comes off it. Two signs of life meanwhile end this look. Without them,
+/// the state of the base is unknown. Above `look_below` the wait is as long as for lost samples. The check
+/// makes no diagnosis. Dead encoders, a driver that repeats itself, motors without power and an engaged brake
+/// look alike. Does not allocate, lock, throw or print after construction.
 class BlindBudget {
  public:
   explicit BlindBudget(const lang::Robot& robot);
@@ -29,7 +29,7 @@ class BlindBudget {
   /// Every good sample: the positions as they were measured. `frozen` when nothing answers, with the way [m]
   /// that was not confirmed; `probed` when something does.
   std::optional<Event> look(const Eigen::VectorXd& q, double time) noexcept;
-  /// What was sent since that sample, as BlindMotion says.
+  /// Takes the torques that were sent since that sample, as BlindMotion does.
   void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
               const Eigen::VectorXd& sent) noexcept {
     motion_.expect(model, friction, sent);

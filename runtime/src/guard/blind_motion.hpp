@@ -29,11 +29,11 @@ class BlindMotion {
   };
   const std::vector<DrivenJoint>& joints() const noexcept { return joints_; }
 
-  /// What the model makes of the torques that were sent, `model` having been told of them. `friction` [N m]
-  /// is what `model` took off them.
+  /// Predicts the motion under the torques that were sent. `model` knows them already. `friction` [N m] is
+  /// the friction that `model` subtracted.
   void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
               const Eigen::VectorXd& sent) noexcept;
-  /// The same of a brake's torques, when nothing has been solved: at the state of the last `expect`.
+  /// Predicts the motion under a brake's torques when no rows were solved, at the state of the last `expect`.
   void expect_brake(const Eigen::VectorXd& sent) noexcept;
 
   int freedoms() const noexcept { return m_; }

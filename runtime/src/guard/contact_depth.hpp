@@ -10,17 +10,17 @@
 
 namespace zwang::runtime {
 
-/// Against a force p from outside the robot goes the way
+/// Against a force p from outside the robot moves by
 ///   ds = - p . yd / |p| dt,
-/// in coordinates in which it is a unit mass [m sqrt(kg)]. Since p began out of nothing that is the depth x
-/// that a contact was pressed in by, at most: what slides takes way, too, so that x ends at `deepest`. And it
-/// took the work E = -p . yd dt, of which damping keeps some. A contact that gives back is a spring, so that
-///  - it slackens: on the way s back its force falls by the part s / x, and grows by it on the way s ahead,
-///  - it gives no more than E.
-/// However soft it is: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. What the robot
-/// moves with, or against, and does not follow it so is no contact's. At the deepest nothing moves: there |p|
-/// is the spring's alone, while what it hits with may be damping for the most part. Does not allocate, lock,
-/// throw or print after construction.
+/// in coordinates in which it is a unit mass [m sqrt(kg)]. Summed since the onset of p, that is at most the
+/// depth x of the contact. It is an upper bound, as sliding takes way, too; so x ends at `deepest`. The
+/// contact took the work E = -p . yd dt, of which damping keeps some. A contact that gives back is a spring:
+///  - It weakens: on the way s back its force falls by the part s / x, and grows by it on the way s ahead.
+///  - It gives no more than E.
+/// Softness does not change this: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. A force
+/// that neither weakens on the way back nor grows on the way in, as a spring does, is not a contact force. At
+/// the deepest point the robot does not move. There |p| is the spring's force alone, while at the hit damping
+/// may be the larger part. Does not allocate, lock, throw or print after construction.
 class ContactDepth {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;

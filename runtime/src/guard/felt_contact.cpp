@@ -51,10 +51,10 @@ double FeltContact::least_force(const BlindMotion& motion) const noexcept {
   return least;
 }
 
-/// A rate over `gap` is wrong by e <= step / gap. The low pass of their differences,
-///   w = (1 - b) w + b (e - e_last) / gap,   b = 1 - exp(-gap / quick),
-/// is c e + older with c = b / gap and older = (1 - b) older_last + ((1 - b) c_last - c) e_last: each error
-/// comes in once with either sign, so that even counts add up to little.
+/// A rate over `gap` has an error e <= step / gap. The low pass of the error's differences is
+///   w = (1 - b) w + b (e - e_last) / gap,   b = 1 - exp(-gap / quick).
+/// It equals c e + older with c = b / gap and older = (1 - b) older_last + ((1 - b) c_last - c) e_last. Each
+/// error comes in once with either sign, so even counts add up to little.
 double FeltContact::force_of_steps(const BlindMotion& motion, double gap, double step) noexcept {
   const double b = 1.0 - std::exp(-gap / quick), c = b / gap;
   older_error_ = (1.0 - b) * older_error_ + std::abs((1.0 - b) * weight_ - c) * rate_error_;
@@ -85,7 +85,7 @@ void FeltContact::learn(BlindMotion& motion, const Eigen::VectorXd& p, const Eig
   is_felt_ = felt > share * force_.head(m).norm() && felt > least_force(motion) && felt > of_steps;
 }
 
-/// What is left of `y` when the world pushes along `first_` and `second_` as hard as it takes.
+/// Reduces `y` to the motion that is left when the world pushes along `first_` and `second_` as needed.
 void FeltContact::hold(int m, Eigen::VectorXd& y) noexcept {
   double first = 0.0, second = 0.0;
   for (int i = 0; i < rounds; ++i) {

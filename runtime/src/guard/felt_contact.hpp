@@ -1,4 +1,4 @@
-/// What holds the base from outside, as it was felt while encoders counted.
+/// The contact that holds the base, as it was felt while encoders counted.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,13 +8,13 @@
 namespace zwang::runtime {
 
 /// A hit stops a live wheel through counted steps while the world's wrench w grows; dead encoders stop at
-/// once, with w = 0. So what was felt goes on: in the plane of w and of its mean over a longer while the
-/// world pushes as hard as needed to hold the base, and never pulls,
+/// once, with w = 0. So the felt contact is assumed to persist. In the plane of w and of its mean over a
+/// longer while the world pushes as hard as needed to hold the base, and never pulls:
 ///   yd' = a + C' (l w + k w_mean),   l, k >= 0.
-/// What is left of a is given `widening` of what is held to spend for itself: two wrenches that were measured
-/// span a little less than the contact they belong to. What a look found goes on in the same way, as long as
-/// the base is near the place: a wall that is hit within a step of the encoder is felt by nothing else. A
-/// hook that is latched holds its origin in x and y, both ways. Does not allocate, lock, throw or print after
+/// The motion may also use `widening` of the force that is held: the plane of two measured wrenches is a
+/// little smaller than the contact's. The contact that a look found persists in the same way, as long as the
+/// base is near the place. No other measurement feels a wall that is hit within a step of the encoder. A
+/// latched hook holds its origin in x and y, both ways. Does not allocate, lock, throw or print after
 /// construction.
 class FeltContact {
  public:
@@ -22,13 +22,13 @@ class FeltContact {
 
   /// The first rate, over `gap` [s], that p will be taken from.
   void set_out(double gap, double step) noexcept { rate_error_ = step / gap; }
-  /// What the world did since the last sign of life, `gap` [s] ago: p beyond the motors' `told`. `step` [m]
-  /// of the encoders, at the rims.
+  /// Learns the world's force since the last sign of life, `gap` [s] ago: p beyond the motors' `told`. `step`
+  /// [m] of the encoders, at the rims.
   void learn(BlindMotion& motion, const Eigen::VectorXd& p, const Eigen::VectorXd& told, double gap,
              double step) noexcept;
   void forget() noexcept;
-  /// The motors told the base to move, and it did not until they were told to move it back: along p of that
-  /// time something holds it.
+  /// The motors' command did not move the base until it was reversed. So a contact holds the base along p of
+  /// that time.
   void find(BlindMotion& motion, const Eigen::VectorXd& p) noexcept;
   /// The base has left the place of what was found.
   void leave() noexcept { is_found_ = false; }
@@ -49,7 +49,7 @@ class FeltContact {
 
  private:
   double least_force(const BlindMotion& motion) const noexcept;
-  /// What the steps of the encoders have added to `w_` at most, by now.
+  /// The largest share of the encoders' steps in `w_` by now.
   double force_of_steps(const BlindMotion& motion, double gap, double step) noexcept;
   void hold(int freedoms, Eigen::VectorXd& y) noexcept;
   void hold_hook(const BlindMotion& motion, Eigen::VectorXd& y) noexcept;

@@ -6,11 +6,11 @@
 
 namespace zwang::runtime {
 
-/// A driver that hears nothing any more may go on with the last positions, and rates that it computes from
-/// them are 0: a base that pushes blindly looks like one that stands at a wall. But they rolled evenly, and
-/// from one sample to the next stay what they are to the bit: a hit takes some time, and leaves them not
-/// quite still. That can be seen where a tick's way is several of the encoders' steps. Does not allocate,
-/// lock, throw or print after construction.
+/// A driver that receives no samples any more may repeat the last positions. The rates that it computes from
+/// them are 0. So a base that pushes blindly looks like a base that stands at a wall. But frozen positions
+/// rolled evenly, and then stay the same to the bit from one sample to the next. A hit takes some time, and
+/// leaves the positions not quite still. The difference can be seen where a tick's way is several of the
+/// encoders' steps. Does not allocate, lock, throw or print after construction.
 class FrozenState {
  public:
   explicit FrozenState(Eigen::Index joints) : q_(Eigen::VectorXd::Zero(joints)) {}

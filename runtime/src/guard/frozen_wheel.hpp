@@ -11,16 +11,16 @@
 
 namespace zwang::runtime {
 
-/// The base would be driven by wheels that do not agree on how it moves, and where there are as many as
-/// freedoms nothing else contradicts. A wheel is frozen
-///  - that rolled evenly, and from one moment to the next has the same position to the bit, while half of the
-///    others at least roll on: a hit that stops one wheel takes some time, and leaves it neither quite still
-///    nor the others as they were;
-///  - or whose motor is told to turn it, and that is as still, while they roll a good way, and that does not
-///    answer when it is told the opposite for a moment. One that spins alone is not told by those that stand.
-/// A wheel that a wall holds stands for long between two counts of a coarse encoder, too: but it answers, and
-/// is asked again after twice the way.
-/// Does not allocate, lock, throw or print after construction.
+/// A frozen wheel contradicts the other wheels about the base's motion. With as many wheels as freedoms no
+/// other measurement shows it. A wheel counts as frozen in two cases:
+///  - It rolled evenly, and then keeps the same position to the bit, while at least half of the others roll
+///    on. A hit that stops one wheel takes some time. It leaves neither this wheel quite still nor the others
+///    unchanged.
+///  - Its motor is told to turn it, it is as still, and the others roll a good way. It also does not answer
+///    when it is told the opposite for a moment. If a single wheel spins, the standing ones are not reported.
+///
+/// A wheel that a wall holds stands for long between two counts of a coarse encoder, too. But it answers, and
+/// is asked again after twice the way. Does not allocate, lock, throw or print after construction.
 class FrozenWheel {
  public:
   explicit FrozenWheel(const lang::Robot& robot);

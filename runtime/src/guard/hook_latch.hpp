@@ -10,10 +10,10 @@
 
 namespace zwang::runtime {
 
-/// A hook whose play is below a step of the encoders answers no look, as dead encoders do not. What tells
-/// them apart is a sensor of its own: a signal that `holds` a frame of the base. It counts from its rising
-/// edge on, which came while encoders were alive, until it is false or stale. Does not allocate, lock, throw
-/// or print after construction.
+/// A hook whose play is below a step of the encoders does not answer a look; neither do dead encoders. A
+/// sensor of its own tells them apart: a signal that `holds` a frame of the base. The signal counts from its
+/// rising edge, which came while encoders were alive, until it is false or stale. Does not allocate, lock,
+/// throw or print after construction.
 class HookLatch {
  public:
   explicit HookLatch(const lang::Program& program);

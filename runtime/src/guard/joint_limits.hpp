@@ -11,14 +11,15 @@
 namespace zwang::runtime {
 
 /// Travel and speed are the `<limit>` of the URDF: lower, upper and velocity. The stop has to come while the
-/// hold can still keep the joint inside, which takes, s = +-1 being the direction of the end,
+/// hold can still keep the joint inside. With s = +-1 as the direction of the end, the hold needs the
+/// distance
 ///   d = v t + v / (e w) + v^2 / (2 a),   v = s qd + max(0, s (tau - g) / I) t,   a = (tau_max + s g) / I
-/// t is the time in which the torque that is sent now turns around, g and I are what the joint bears, v / (e
-/// w) is how far a hold of the frequency w swings, v^2 / (2 a) what a torque at its limit adds.
-/// A joint that stands at an end from the start, a closed gripper or a lift that is down, rests on it: the
-/// end bears its weight and what pushes it. There the stop comes only where it would go beyond by ten times
-/// the resolution, v = s qd, until it has left the end by as much. Does not allocate, lock, throw or print
-/// after construction.
+/// t is the time in which the present torque reverses, and g and I are the load and the inertia on the joint.
+/// v / (e w) is the overshoot of a hold of the frequency w, and v^2 / (2 a) is the way of a torque at its
+/// limit. A joint may stand at an end from the start, as a closed gripper or a lowered lift does. It then
+/// rests on the end, which bears its weight and any push. There the stop comes only where the joint would go
+/// beyond by ten times the resolution, v = s qd, until it has left the end by as much. Does not allocate,
+/// lock, throw or print after construction.
 class JointLimits {
  public:
   /// `max_torque` [N m] of each joint, and `slew` [N m] how much of it may change in a tick of `period` [s].

@@ -12,12 +12,12 @@
 namespace zwang::runtime {
 
 /// For each driven joint, over windows of the time T,
-///   q(t) - q(t - T) = integral of qd from t - T to t,
-/// of wheels but for whole turns, as their encoders may count from 0 after each. Where the two differ by more
-/// than half of the larger one, the same way over some windows in a row, one of them is not measured: rates
-/// that a host never fills in, or that have another sign or unit. Neither noise nor the steps of an encoder
-/// add up that way, and a rate that is late differs only while it changes. Does not allocate, lock, throw or
-/// print after construction.
+///   q(t) - q(t - T) = integral of qd from t - T to t.
+/// For wheels, whole turns do not count, as encoders may count from 0 after each. If the two sides differ by
+/// more than half of the larger one, one of them is not measured. The difference has to keep its direction
+/// over some windows in a row. Examples are rates that a host never fills in, or that have another sign or
+/// unit. Neither noise nor the steps of an encoder add up that way, and a late rate differs only while it
+/// changes. Does not allocate, lock, throw or print after construction.
 class JointRates {
  public:
   explicit JointRates(const solver::Model& model);

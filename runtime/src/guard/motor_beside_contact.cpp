@@ -78,9 +78,9 @@ double MotorBesideContact::broken_part(const Vector& p, int window) noexcept {
   return static_cast<double>(ticks_off_line_) / window;
 }
 
-/// The gamma that takes off N what it can; 0 where that is not nearly all.
+/// The gamma that reduces N most; 0 if N is not nearly gone with it.
 ///   N1 = 2 tr(P) a.T - 2 a'P T,   N2 = (a.T)^2 + tr(P) b s - |a|^2 s - b T'P T,
-/// P = <p p'>, a = <p tau>, b = <tau^2>, s = |T|^2.
+///   P = <p p'>, a = <p tau>, b = <tau^2>, s = |T|^2.
 double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
                                       const Vector& T) const noexcept {
   const double trace = trace_;

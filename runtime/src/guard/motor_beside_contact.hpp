@@ -13,18 +13,19 @@
 
 namespace zwang::runtime {
 
-/// One contact presses along one line: however hard, its force p = n f(t) on the free motions keeps to n. A
-/// motor j that gives (1 - gamma) tau_j adds - gamma tau_j T_j and takes p off that line. With <> the mean
-/// over the last while, r = p + gamma tau_j T_j, R = <r r'>,
+/// One contact presses along one line: however hard it presses, its force p = n f(t) on the free motions
+/// keeps to n. A motor j that gives (1 - gamma) tau_j adds - gamma tau_j T_j and takes p off that line. <> is
+/// the mean over the last while. With r = p + gamma tau_j T_j and R = <r r'>,
 ///   N(gamma) = (tr(R)^2 - |R|^2) / 2 = N0 + N1 gamma + N2 gamma^2
-/// is the sum of R's principal minors, and 0 where r keeps to a line. The gamma that makes it smallest is 1
-/// for a motor that gives nothing, 2 for one that gives the opposite, another one for a motor that is stuck.
-/// Where next to nothing is left of N0, it is motor j beside one contact: friction turns n, too, but not by
-/// what one motor is told while f varies. As long as f does not vary, p is on a line in any case, and nothing
-/// is told: unless the motor breaks then, and p leaves the line that it had. So gamma is sought twice, for a
-/// motor that has been broken all the while, not one that was seen to obey (Obedience), and for one that
-/// broke when p last left its line. For robots with three free motions: with two, two contacts can do what a
-/// motor does. Does not allocate, lock, throw or print after construction.
+/// is the sum of R's principal minors, and 0 where r keeps to a line. N is smallest at gamma = 1 for a motor
+/// that gives nothing, and at 2 for one that gives the opposite. A stuck motor has another gamma. Where next
+/// to nothing is left of N0, the fault is motor j beside one contact. Friction turns n, too, but not by one
+/// motor's command while f varies. As long as f does not vary, p is on a line in any case, and no fault is
+/// reported. The exception is a motor that breaks then: p leaves the line that it had. So gamma is sought
+/// twice. The first search is for a motor that was broken all the while, unless it was seen to obey
+/// (Obedience). The second is for a motor that broke when p last left its line. The check needs three free
+/// motions: with two, two contacts can have the effect of a motor. Does not allocate, lock, throw or print
+/// after construction.
 class MotorBesideContact {
  public:
   MotorBesideContact(const lang::Robot& robot, double period);

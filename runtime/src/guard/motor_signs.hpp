@@ -12,15 +12,15 @@
 
 namespace zwang::runtime {
 
-/// A sign that somebody has wrong for every motor, or for every encoder: the base accelerates against what is
-/// commanded, c = sum of T_j tau_j in the coordinates of free motion, with
-///   p = -gamma c,   gamma = 2,
-/// and the controller that sees it move the wrong way drives it on. That is so from the first torque or
-/// never, so it is asked until the motors were seen to obey, gamma near 0. A contact takes gamma = 1 of what
-/// presses against it. Who pushes the base is there before it answers: gamma comes down from far above, and a
-/// force p = a t that a velocity driver begins to answer with c = a t^2 / 2T leaves 1/16 of |p|^2. So p is
-/// compared with c from when both begin, and where they do not fit not again before both are gone. Does not
-/// allocate, lock, throw or print after construction.
+/// A sign that is wrong for every motor, or for every encoder. The base accelerates against its command, c =
+/// sum of T_j tau_j in the coordinates of free motion, with
+///   p = -gamma c,   gamma = 2.
+/// The controller that sees the wrong motion drives it on. The sign is wrong from the first torque or never.
+/// So the check runs until the motors were seen to obey, gamma near 0. A contact takes gamma = 1 of the force
+/// that presses against it. A person who pushes the base does so before it answers, so gamma comes down from
+/// far above. A velocity driver begins to answer a force p = a t with c = a t^2 / 2T, which leaves 1/16 of
+/// |p|^2. So p is compared with c from the onset of both. If they do not fit, the next comparison waits until
+/// both are gone. Does not allocate, lock, throw or print after construction.
 class MotorSigns {
  public:
   MotorSigns(const lang::Robot& robot, double period);

@@ -19,11 +19,12 @@
 
 namespace zwang::runtime {
 
-/// In free motion a motor is told by its force (ActuatorWatch), beside one contact by the line that it takes
-/// the force off (MotorBesideContact), and beside any number of them by its work (ReversedMotor,
-/// RunawayWatch); all motors together by the first torques (MotorSigns). What a contact that was pressed in
-/// (ContactDepth) gives back is no motor's, nor while somebody pushes (Pusher) what is of its size. Does not
-/// allocate, lock, throw or print after construction.
+/// In free motion a motor's force shows its fault (ActuatorWatch). Beside one contact, the fault shows by the
+/// line that it takes the force off (MotorBesideContact). Beside any number of contacts it shows by its work
+/// (ReversedMotor, RunawayWatch). A fault of all motors together shows by the first torques (MotorSigns). Two
+/// forces are not a motor's. One is the force that a pressed contact (ContactDepth) gives back. The other has
+/// the size of a person's push, while the person pushes (Pusher). Does not allocate, lock, throw or print
+/// after construction.
 class MotorWatch {
  public:
   /// `period` [s] from one look to the next.

@@ -5,11 +5,11 @@
 
 namespace zwang::runtime {
 
-/// A motor that failed while it was told nothing has not given its torque once since it is told something.
-/// One that has, with nothing missing of it for as long as the observer's mean is, did not fail then: what
-/// has the size of its command later, without a begin of its own, is contact's, or the error of a model that
-/// is too light or too heavy: that is proportional to the accelerations, of whichever motors they come, and
-/// does not begin with a fault.
+/// A motor that failed without a command has not given its torque once since its command started. If a motor
+/// gave its whole torque for the duration of the observer's mean, it did not fail then. A later force of the
+/// command's size without an onset of its own has another source. It is a contact's, or the error of a model
+/// that is too light or too heavy. That error is proportional to the accelerations, whichever motors cause
+/// them, and does not start with a fault.
 class Obedience {
  public:
   explicit Obedience(int dwell) noexcept : dwell_(dwell) {}

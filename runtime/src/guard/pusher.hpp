@@ -10,17 +10,17 @@
 
 namespace zwang::runtime {
 
-/// The force of a motor that fails begins with its command; that of a person who leans on the base begins
-/// before it. A motor that gives any torque up to the largest, m_j, that it was told since p began differs
-/// from its command by |f_j| <= m_j + |tau_j|, so that all of them together, whatever is wrong with them, do
-/// no more work on the robot than
+/// The force of a motor that fails starts with its command; that of a person who leans on the base starts
+/// before it. Say that a failed motor gives at most the largest torque, m_j, of its commands since the onset
+/// of p. It then differs from its command by |f_j| <= m_j + |tau_j|. So all motors together, whatever their
+/// faults are, do no more work on the robot than
 ///   sum of (m_j + |tau_j|) |qd_j|,
-/// and contacts with what stands give back what they took. Since p began out of nothing, when they had taken
-/// nothing yet, that is
+/// and contacts with standing objects give back the work that they took. At the onset of p they had taken
+/// none yet. Since then that is
 ///   B = integral of P - sum of (m_j + |tau_j|) |qd_j| <= 0.
-/// Where B is more, somebody else does work, and goes on until p is nothing again: what has the size of a
-/// motor's share then, as a push at its wheel has that it answers, is no motor's. Does not allocate, lock,
-/// throw or print after construction.
+/// If B is more, a person or another robot does work, and does so until p is 0 again. Until then a force of
+/// the size of a motor's share is not a motor's: a push at a wheel that answers it has that size, too. Does
+/// not allocate, lock, throw or print after construction.
 class Pusher {
  public:
   /// `period` [s] between looks.

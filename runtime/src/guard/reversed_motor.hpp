@@ -11,21 +11,22 @@
 
 namespace zwang::runtime {
 
-/// What nobody commands does work on the robot at the rate P = p . yd. A contact with what stands does none
-/// while it presses steadily, however hard and wherever: its point does not move. A motor j that gives -tau_j
-/// does, beside any such contacts,
+/// Work that no motor is told to do acts on the robot at the rate P = p . yd. A contact with a standing
+/// object does none while it presses steadily, however hard and wherever, as its point does not move. A motor
+/// j that gives -tau_j does work, beside any such contacts, at the rate
 ///   P_j = -2 tau_j qd_j,
-/// at rates that change all the time. So P / P_j = 1 that stays the same while the wheel rolls on is motor j.
-/// What else gives energy, and how it is told apart:
-///  - A contact that gives back what it stored slackens: of a force F it loses K s on the way s, so that none
-///    stiffer than `steadily` F / `travel`, 2 kN/m at 40 N, keeps its share; and the motor has to do more
-///    than a spring as deep as this one was pressed in (ContactDepth).
-///  - Somebody who pushes the robot evenly gives P = -W, W = sum of tau_k qd_k what all motors were told to
-///    do, and it does not get faster; a reversed motor's P + W is what speeds it up.
-///  - The error E of a model with a wrong mass, p = -E ydd, gives P = e (P + W) with e <= 1/2 where the mass
-///    is no less than half of the model's: W is larger than P then.
-/// Where two motors have the same share, none is told: on a car they cannot be told apart. Does not allocate,
-/// lock, throw or print after construction.
+/// at rates that change all the time. So a constant P / P_j = 1 while the wheel rolls on means motor j. Other
+/// sources of energy are told apart as follows:
+///  - A contact that gives back stored energy weakens: its force F loses K s on the way s. So a contact
+///    stiffer than `steadily` F / `travel`, 2 kN/m at 40 N, does not keep its share. The motor also has to do
+///    more work than a spring of the depth of this contact (ContactDepth).
+///  - A person who pushes the robot evenly gives P = -W, and the robot does not get faster. W = sum of tau_k
+///    qd_k is the commanded work of all motors. A reversed motor's P + W speeds the robot up.
+///  - A model with a wrong mass has the error E. Its p = -E ydd gives P = e (P + W). If the mass is at least
+///    half of the model's, e <= 1/2, so W is larger than P.
+///
+/// Where two motors have the same share, neither is reported: on a car they cannot be told apart. Does not
+/// allocate, lock, throw or print after construction.
 class ReversedMotor {
  public:
   /// `period` [s] between looks.

@@ -50,8 +50,8 @@ double excess(const AxisConstraint& c, double velocity, const Margin& margin) no
   return most;
 }
 
-/// What says how the base moves. The tool of an arm that is led by hand is no base that runs away: an arm is
-/// bounded by JointLimits.
+/// Whether the constraint is about the base's motion. A person may lead the tool of an arm by hand, and the
+/// base does not run away then. An arm is bounded by JointLimits.
 bool is_of_base(const AxisConstraint& c) noexcept {
   constexpr int base = 0;
   return c.move.body <= base && c.in.body <= base;

@@ -11,30 +11,32 @@
 
 namespace zwang::runtime {
 
-/// A world that only takes energy leaves the robot's kinetic energy, whatever its mass,
+/// A world that only takes energy bounds the robot's kinetic energy, whatever its mass:
 ///   T(t) <= T(t0) + E(t0) + W,   W = integral of tau . qd from t0 to t,
-/// tau what its motors are told and E what contacts have stored by t0. Where an axis is faster than its task
-/// drives or allows, W < 0 and T grows all the same, somebody else does the work: a motor that pushes where
-/// it is told to brake, or a push from outside. Contacts that give back what they stored do it, too, and are
-/// told apart:
+/// with tau the motors' commands and E the energy that contacts have stored by t0. Suppose that an axis is
+/// faster than its task drives or allows, W < 0 and T still grows. Then another source does the work: a motor
+/// that pushes instead of braking, or a push from outside. Contacts that give back stored energy do it, too,
+/// and are told apart:
 ///  - A bounce gives back less than the robot had before it: T(t0) + E(t0) is at most the largest T of the
 ///    last second.
-///  - A contact gives back by slackening, k times less force for k times less way. A force that keeps its
-///    direction and size while it drives the robot is no contact's,
-///  - but a soft one's, which takes a long way to slacken: either has to do more than a spring as deep as
-///    this one was pressed in (ContactDepth).
-/// A motor that does the opposite of what it is told gives twice the work that it is told to take, and no
-/// contact adds to it. Where no motor's share comes near what was done, T(t) - T(t0) - W, the robot gives way
-/// to a push from outside, as a force range has it, and that is no fault. (Of two motors each may be all of
-/// it.) So of all the time since a speed was exceeded, and of that in which T grows alone: what motors took
-/// between two pushes none of them gave. But it is a fault where the base is far beyond what is allowed and
-/// still gets faster: whoever does that, several motors that are wired the wrong way round or somebody
-/// strong, the base is not to be moved so. A driver with a force range F and the time constant T gives way by
-/// F T/m to a push of F. While somebody pushes, that is no runaway. Only constraints
-/// between base and world count: whoever leads an arm by hand does work on the robot, and its joints have
-/// limits of their own. A limit that is tightened under way, a contact that turns the base, a motion that
-/// rows bring about together: in each of them T falls, or W > 0. The hit of another robot is over before
-/// `dwell`. Does not allocate, lock, throw or print after construction.
+///  - A contact gives back by weakening, k times less force for k times less way. A force that keeps its
+///    direction and size while it drives the robot is not a contact's.
+///  - A soft contact needs a long way to weaken. So the force also has to do more work than a spring of this
+///    contact's depth (ContactDepth).
+///
+/// A motor that does the opposite of its command gives twice the work that it is told to take, and no contact
+/// adds to it. If no motor's share comes near the work done, T(t) - T(t0) - W, the robot gives way to a push
+/// from outside. A force range asks for that, so it is not a fault. (Of two motors each may do all of the
+/// work.) The shares are taken over all the time since a speed was exceeded, and over the time in which T
+/// grows alone. No motor gives the work that motors took between two pushes. A base far beyond its allowed
+/// speed that still gets faster is a fault in any case. The source may be several motors with the wrong
+/// wiring or a strong person: the base must not be moved so. A driver with a force range F and the time
+/// constant T gives way by F T/m to a push of F. While a person pushes, that is not a runaway. Only
+/// constraints between base and world count. A person who leads an arm by hand does work on the robot, and
+/// the arm's joints have limits of their own. Three other causes are excluded, as T falls or W > 0 in each.
+/// They are a limit that is tightened during the motion, a contact that turns the base, and a motion that
+/// rows cause together. The hit of another robot is over before `dwell`. Does not allocate, lock, throw or
+/// print after construction.
 class RunawayWatch {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;

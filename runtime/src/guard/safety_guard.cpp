@@ -17,7 +17,7 @@ namespace {
 
 // No position, speed or wrench of a robot is larger; a number that is, is a broken one.
 constexpr double largest_plausible = 1e9;
-// A clock may count from 1970: that is the year 2286. One that counts milliseconds is beyond it.
+// A clock may count from 1970: this value is the year 2286. A clock that counts milliseconds is beyond it.
 constexpr double latest_plausible = 1e10;  // [s]
 // A robot that says to be faster than this changes its position within a few ticks, however coarse its
 // encoders are.

@@ -11,10 +11,10 @@
 
 namespace zwang::runtime {
 
-/// What the ground does not allow of the measured velocities is slip: of a wheel, radius times the rate that
-/// projecting the velocities takes away from it, low-passed. Where the base is measured all wheels may slip
-/// at once; where it is reckoned from the wheels, only what they contradict each other by is seen. Does not
-/// allocate, lock, throw or print after construction.
+/// Slip is the part of the measured velocities that the ground does not allow. The slip of a wheel is its
+/// radius times the rate that the projection of the velocities takes away from it, low-passed. Where the base
+/// is measured, all wheels may slip at once. Where it is reckoned from the wheels, only their contradictions
+/// are seen. Does not allocate, lock, throw or print after construction.
 class SlipWatch {
  public:
   explicit SlipWatch(const solver::Model& model);
@@ -24,7 +24,8 @@ class SlipWatch {
   std::optional<Event> look(const solver::State& measured, const solver::State& allowed,
                             double time) noexcept;
   bool slips() const noexcept { return slips_; }
-  /// Perhaps: half the speed that is told. What needs wheels that hold is not to be believed.
+  /// Slip is possible: half of the reported speed. Estimates that need wheels without slip are not trusted
+  /// then.
   bool doubtful() const noexcept { return speed_ > 0.5 * threshold; }
   double speed() const noexcept {
     return std::max(0.0, speed_);

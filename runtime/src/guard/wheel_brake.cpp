@@ -66,7 +66,7 @@ void WheelBrake::begin_slope() noexcept {
   slope_for_ = 0.0;
 }
 
-/// What the wheel may keep of its rate now; 0 where it has turned around. [rad/s]
+/// The part of its rate that the wheel may keep now; 0 where it has turned around. [rad/s]
 double WheelBrake::allowed_rate(const DrivenWheel& wheel, double rate) const noexcept {
   const double first = first_qd_(wheel.joint);
   return is_on_slope() && rate * first > 0.0 ? (1.0 - slope_for_ / slope_time_) * std::abs(first) : 0.0;

@@ -8,25 +8,30 @@
 
 namespace zwang::runtime {
 
-/// Each driven wheel damps its own motion, tau = -d qd within its limit, which can only take energy, as long
-/// as the motor does what it is told. One that does the opposite drives the base instead, faster than the
-/// others brake it: of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
-/// is left out. Where the wheels get faster under the brake, the one that got faster most is left out, then
-/// one after the other, until they do not; then all of them. Few wheels cannot brake every motion without
-/// it: where they roll on evenly, what is left out is turned around. Should that make them faster, the motor
-/// obeys: one that was under no more than suspicion brakes again, another one is left out for good.
-/// That also brakes a base whose motors, or encoders, are all wired the wrong way round. Where no choice
-/// brakes, all of them are left out.
-/// While a motor is under no more than suspicion, the brake is a tenth as stiff: another one that drives the
-/// base then doubles a rate in some 40 ms at the least, which the brake sees before that motor presses.
-/// Where no motor is under suspicion the base slows down no harder than `robot.stop.deceleration`: with v and
-/// w its speed and yaw rate when the brake begins, every wheel may keep the share 1 - t / t_s of its rate,
-///   t_s = max(|v|, R |w|) / a,   R the footprint's radius,
-/// and is damped only beyond that. Against whoever drives the base there are still all of the torques.
-/// Where samples stay away the brake goes on from the last one: the kinetic energy T that the robot had then
-/// is gone after 2 T / P, P the power of the brakes at that moment, when nothing else acts. It stops short of
-/// that by what the model may be wrong by, for a brake that believes a speed of the past drives the robot
-/// backwards. Does not allocate, lock, throw or print after construction.
+/// Each driven wheel damps its own motion, tau = -d qd within its limit. This can only take energy, as long
+/// as the motor obeys its command. A motor that does the opposite drives the base instead, faster than the
+/// others brake it. Of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
+/// is left out. If the wheels get faster under the brake, the one with the largest gain is left out. The next
+/// ones follow one by one, until the gain ends, or all are out. Few wheels cannot brake every motion without
+/// the suspect. If they roll on evenly, the torque of the left-out motor is reversed. If the wheels then get
+/// faster, that motor obeys. A motor that was only under suspicion brakes again, and another one is left out
+/// for good. That also brakes a base whose motors, or encoders, are all wired the wrong way round. Where no
+/// choice brakes, all of them are left out.
+///
+/// While a motor is only under suspicion, the brake is a tenth as stiff. Another motor that drives the base
+/// then needs at least some 40 ms to double a rate. The brake sees that before that motor presses.
+///
+/// Where no motor is under suspicion the base slows down no harder than `robot.stop.deceleration`. With v and
+/// w its speed and yaw rate at the onset of the brake, every wheel may keep the share 1 - t / t_s of its
+/// rate:
+///   t_s = max(|v|, R |w|) / a,   R the footprint's radius.
+/// It is damped only beyond that. Against a person who drives the base all of the torques are still
+/// available.
+///
+/// Without samples the brake continues from the last one. The kinetic energy T of that sample is gone after 2
+/// T / P, with P the power of the brakes at that moment, if no other force acts. The brake ends earlier, by
+/// the possible error of the model: a brake that acts on a past speed drives the robot backwards. Does not
+/// allocate, lock, throw or print after construction.
 class WheelBrake {
  public:
   /// All wheels together press the ground with `robot.stop.force` at most.
@@ -38,8 +43,8 @@ class WheelBrake {
   /// All motors, or all encoders, are the wrong way round.
   void begin_turned_around() noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
-  /// A tick with a sample that can be believed, as far as it is known: the one before it is what counts, for
-  /// encoders that die may say so in their rates a sample before their positions stay.
+  /// Takes a tick with a trusted sample. The sample before it is the one that counts. When encoders die,
+  /// their rates may show it a sample before their positions stay.
   void remember(const solver::State& state) noexcept;
   /// A tick without one: goes on from what was remembered last. Leaves `tau` as it is when that is used up.
   void brake_blind(Eigen::VectorXd& tau) noexcept;

@@ -17,8 +17,8 @@ struct WheelMotor {
   double threshold = 0.0;  ///< [N m] the least torque that tells something of the motor
 };
 
-/// Those whose torque has a limit. `smallest` is the share of it that counts; and where a joint stands, its
-/// dry friction may be anything up to its bound, either way.
+/// The wheels' motors whose torque has a limit. `smallest` is the share of the limit that counts. Where a
+/// joint stands, its dry friction may be anything up to its bound, either way.
 inline std::vector<WheelMotor> wheel_motors(const lang::Robot& robot, double smallest) {
   std::vector<WheelMotor> motors;
   for (const solver::Wheel& wheel : robot.model.wheels()) {
@@ -32,7 +32,7 @@ inline std::vector<WheelMotor> wheel_motors(const lang::Robot& robot, double sma
   return motors;
 }
 
-/// What the threshold of the motor that is felt least makes of a force on the free motions; 0 without motors.
+/// The smallest force on the free motions that corresponds to a motor's threshold; 0 without motors.
 inline double least_force(const std::vector<WheelMotor>& motors,
                           const solver::FreeMotions& motions) noexcept {
   double least = solver::infinity;

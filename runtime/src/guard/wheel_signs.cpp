@@ -44,7 +44,7 @@ double WheelSigns::square_slip(const solver::State& measured, const solver::Stat
   return sum;
 }
 
-/// What slip there would be if the wheel were measured the wrong way round.
+/// The slip with the wheel's rate reversed.
 std::optional<double> WheelSigns::square_slip_turned(solver::Solver& solver, const Wheel& wheel,
                                                      const solver::State& measured,
                                                      bool is_reckoned) noexcept {

@@ -11,14 +11,14 @@
 
 namespace zwang::runtime {
 
-/// The ground allows some of the measured velocities and takes slip away from the others. Slip that is gone
-/// when the rate of one wheel is given the other sign, and stays so while the rates change, is none: that
-/// wheel is measured the wrong way round. Told where the wheels or a measured base know more velocities than
-/// the ground leaves free. Which wheel it is need not be told: when a base with four mecanum wheels goes
-/// straight ahead, turning any of them explains it. No encoder turns round under way: a wheel that has agreed
-/// with the others while they rolled, and would not have with the other sign, is never told. On ice front
-/// wheels that spin and rear ones that stand look for a while as if one were reversed. Does not allocate,
-/// lock, throw or print after construction.
+/// The ground allows some of the measured velocities and takes slip away from the others. Slip may vanish if
+/// the rate of one wheel has the other sign, and stay so while the rates change. Then it is not slip: that
+/// wheel is measured the wrong way round. The check needs more measured velocities, from the wheels or a
+/// measured base, than the ground leaves free. It need not say which wheel it is. When a base with four
+/// mecanum wheels goes straight ahead, turning any of them explains the slip. An encoder does not reverse
+/// during the motion. So a wheel is never reported if it has agreed with the others while they rolled, and
+/// would not have with the other sign. On ice, front wheels that spin and rear wheels that stand look for a
+/// while as if one were reversed. Does not allocate, lock, throw or print after construction.
 class WheelSigns {
  public:
   explicit WheelSigns(const solver::Model& model);

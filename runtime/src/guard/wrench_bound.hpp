@@ -10,13 +10,12 @@
 
 namespace zwang::runtime {
 
-/// The largest contact force on a robot of the mass m is its weight, the force of its motors at the ground,
-/// and that of a hit at the speed v on a spring of the stiffness K:
+/// The largest contact force on a robot of the mass m has three parts. They are its weight, the force of its
+/// motors at the ground, and a hit at the speed v on a spring of the stiffness K:
 ///   F = m g + sum tau_max / r + 1.5 v sqrt(K m)
 /// A damped hit stays below 1.5 v sqrt(K m) up to a damping ratio of 0.75. A hit presses hardest when the
-/// robot already stands, so v is the largest speed of a while. With its lever R a force makes a moment of
-/// F R at most. A larger wrench is a sensor's fault. Does not allocate, lock, throw or print after
-/// construction.
+/// robot already stands, so v is the largest speed of a while. With its lever R a force makes a moment of F R
+/// at most. A larger wrench is a sensor's fault. Does not allocate, lock, throw or print after construction.
 class WrenchBound {
  public:
   /// `longest`: as many ticks in a row with an impossible wrench are a stop.

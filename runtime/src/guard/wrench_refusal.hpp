@@ -18,9 +18,9 @@ class WrenchRefusal {
  public:
   explicit WrenchRefusal(const solver::Model& model) : model_(model) {}
 
-  /// Takes out of the wrenches on the bodies what lies along the rows of `sets` that drive or limit a force:
-  /// of forces along their directions, of moments about their axes. An event when that begins to be more
-  /// than `threshold`, and not again before a second without.
+  /// Removes from the wrenches on the bodies the part along the rows of `sets` that drive or limit a force.
+  /// It is taken from forces along their directions and from moments about their axes. An event when the
+  /// removed part begins to exceed `threshold`, and not again before a second without it.
   std::optional<Event> look(std::span<const solver::RowSet> sets, solver::State& state, double time) noexcept;
 
   static constexpr double threshold = 1.0;  ///< [N] or [N m]

@@ -39,7 +39,7 @@ class LogFile {
     size_ += bytes.size();
     return std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size() ? "" : failed("written");
   }
-  /// What was appended and flushed; fewer bytes at the end, and where it cannot be read.
+  /// The bytes that were appended and flushed; fewer at the end, and where they cannot be read.
   std::string read_at(std::size_t offset, std::size_t bytes) const {
     std::string read(bytes, '\0');
     const ssize_t count = ::pread(::fileno(file_), read.data(), bytes, static_cast<off_t>(offset));

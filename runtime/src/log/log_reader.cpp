@@ -31,7 +31,7 @@ std::map<std::string, std::string> facts_of(std::string_view bytes) {
 
 }  // namespace
 
-/// One file of a log. What it says of itself goes into the contents; what the files before it said stays.
+/// One file of a log. Its facts go into the contents; the facts of the files before it stay.
 class LogRecords::File {
  public:
   File(const std::filesystem::path& path, LogContents& contents, bool is_first)
@@ -190,7 +190,7 @@ class LogRecords::File {
     return true;
   }
 
-  /// What is damaged and has no CRC of its own: schema, facts, the index of a chunk.
+  /// Reports damage to the parts that have no CRC of their own: schema, facts, the index of a chunk.
   void judge_the_whole(std::uint32_t crc) {
     if (crc != 0 && crc != file_.data_crc() && contents_.damage.empty())
       contents_.damage.push_back(said_in_ + "a bit of it has changed, outside the records");

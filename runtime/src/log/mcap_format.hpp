@@ -1,5 +1,5 @@
 /// The records of MCAP version 0 (https://mcap.dev/spec), as far as a log of ours has them. A record is an
-/// opcode (1 byte), the length of its content (8 bytes) and the content; all numbers are little-endian, a
+/// opcode (1 byte), the length of its content (8 bytes) and the content. All numbers are little-endian. A
 /// string or a map has its length in bytes (4) before it.
 #pragma once
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto idle = std::chrono::milliseconds(10);  // between two looks at an empty ring
 
-/// What a sink says, thrown or returned.
+/// The complaint of a sink, thrown or returned.
 template <typename Call>
 std::string complaint(const Call& call) {
   try {

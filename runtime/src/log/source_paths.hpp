@@ -5,9 +5,9 @@
 
 namespace zwang::runtime {
 
-/// From the present folder where all of them lie in it, else from the folder that they have in common,
-/// however they were typed: the same files make the same log. `sources`, and the facts that name one: `task`,
-/// `robot` and `scene`.
+/// Paths start at the present folder if all files lie in it, else at the folder that they have in common. The
+/// spelling on the command line does not matter: the same files make the same log. Changes `sources`, and the
+/// facts that name a file: `task`, `robot` and `scene`.
 LogContext with_paths_from_one_folder(LogContext context);
 
 }  // namespace zwang::runtime

@@ -1,4 +1,4 @@
-/// What the truth says of one base: how it leans, speeds up, pushes, slips and falls.
+/// The true motion of one base: how it leans, speeds up, pushes, slips and falls.
 #pragma once
 
 #include "contact_reader.hpp"

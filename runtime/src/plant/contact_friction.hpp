@@ -1,9 +1,9 @@
-/// Dry friction where robots touch objects and each other, as floor_friction.hpp has it under objects, and
-/// for its reason. A contact of MuJoCo's that slides at v is in balance where it is mu v B/K less deep than
-/// at rest. It chatters where that is more than its depth. So these contacts press along their normal only,
-/// and in the contact's plane an elastic bristle yields. With stretch s, ds/dt = v,
+/// Dry friction where robots touch objects and each other. The model is that of floor_friction.hpp under
+/// objects, for the same reason. A sliding contact of MuJoCo is in balance at mu v B/K less depth than at
+/// rest, with v its speed. It chatters where that is more than its depth. So these contacts press along their
+/// normal only, and in the contact's plane an elastic bristle yields. With stretch s, ds/dt = v,
 ///     f = -(k s + c v), |f| <= mu N, and |k s| <= mu N by cutting s.
-/// k = m w^2 with w = 100 1/s and m what MuJoCo estimates to move at the contact.
+/// k = m w^2 with w = 100 1/s. m is MuJoCo's estimate of the moving mass at the contact.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ class ContactFriction {
   /// Sets `xfrc_applied` to the friction of the contacts that the last step found. Moves the bristles by one
   /// step.
   void push(const mjModel_& model, mjData_& data) noexcept;
-  /// What it set on each pair's bodies: `act(geom1, geom2, force on the second [N], where [m])`.
+  /// The forces on each pair's bodies: `act(geom1, geom2, force on the second [N], where [m])`.
   template <typename Act>
   void for_each(Act act) const {
     for (const Bristle& bristle : bristles_) {

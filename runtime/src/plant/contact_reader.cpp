@@ -43,7 +43,8 @@ void ContactReader::add_push(std::size_t robot, int body, const Eigen::Vector3d&
   of.on_body[static_cast<std::size_t>(body)] += solver::ForceVector{at.cross(force) + torque, force};
 }
 
-/// What the first robot's outline touches in this contact: an index into the truth's objects, or -1.
+/// The object that the first robot's outline touches in this contact: an index into the truth's objects, or
+/// -1.
 int ContactReader::touched_object(int geom1, int geom2) const noexcept {
   const GeomOwner &one = owner_of(geom1), &other = owner_of(geom2);
   const bool first_is_one = one.touches && one.robot == 0;

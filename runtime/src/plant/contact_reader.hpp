@@ -1,4 +1,4 @@
-/// What the contacts of a step come to: forces on objects, corners and robots, and which of them are hits.
+/// The sums of the contacts of a step: forces on objects, corners and robots, and which contacts are hits.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +30,7 @@ class ContactReader {
   const GeomOwner& owner_of(int geom) const { return owners_[static_cast<std::size_t>(geom)]; }
   /// The contacts of the step that was just made are those at its beginning, `before` [s].
   void read(const mjModel_& model, const mjData_& data, double before, Truth& truth) noexcept;
-  /// What else presses on a robot: a force on a body of its model [N] at a point of the world [m], and a
+  /// Adds another load on a robot: a force on a body of its model [N] at a point of the world [m], and a
   /// torque [N m].
   void add_push(std::size_t robot, int body, const Eigen::Vector3d& force, const Eigen::Vector3d& at,
                 const Eigen::Vector3d& torque = Eigen::Vector3d::Zero()) noexcept;

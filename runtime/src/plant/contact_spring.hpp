@@ -1,4 +1,4 @@
-/// What a contact in the bumper's plane is as a spring.
+/// The spring of a contact in the bumper's plane.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace zwang::runtime {
 
-/// What can be met: an object of the scene or a robot.
+/// An object of the scene or a robot that others can touch.
 struct Touchable {
   struct Skin {
     double stiffness = 0.0, damping = 0.0;
@@ -37,15 +37,15 @@ struct ContactSpring {
 /// The two meet with the stiffness and damping ratio of the softer one; at least one has a skin.
 ContactSpring contact_spring(const Touchable& one, const Touchable& other);
 
-/// A spring as a step of h = `period` takes it. A share theta of the step is implicit:
+/// The spring in a step of h = `period`. A share theta of the step is implicit:
 ///     f = K (x + theta h v') + c ((1 - theta) v + theta v'),   v' = v + h a,
-///       = K x + (theta K h + c) v + theta (K h^2 + c h) a,
-/// x the depth, v and a its rates, v' the rate at the end of the step. theta = min(1, max(h w/2, h c/m)), w =
-/// sqrt(K/m), and twice the first for h w >= 1: next to nothing where the step resolves the spring, all where
-/// it does not. It damps by a ratio of theta h w/2, which takes (h w)^2 pi/8 of a peak. So no contact gives
-/// back more than it took, at any stiffness: the depth x0 < h v at which a contact is found costs nothing,
-/// and the first step takes more than K x0^2/2. A step cannot tell springs beyond h w = 30 from a rigid wall;
-/// those are cut to it.
+///       = K x + (theta K h + c) v + theta (K h^2 + c h) a.
+/// x is the depth, v and a are its rates, and v' is the rate at the end of the step. The share is
+///     theta = min(1, max(h w/2, h c/m)),   w = sqrt(K/m),   h w/2 doubled for h w >= 1.
+/// It is next to nothing where the step resolves the spring, and all where it does not. It damps by a ratio
+/// of theta h w/2, which takes (h w)^2 pi/8 of a peak. So no contact gives back more than it took, at any
+/// stiffness. The depth x0 < h v at which a contact is found costs nothing, and the first step takes more
+/// than K x0^2/2. A step cannot tell springs beyond h w = 30 from a rigid wall, so they are cut to it.
 struct SteppedSpring {
   double stiffness = 0.0;  ///< K [N/m]
   double damping = 0.0;    ///< theta K h + c [N s/m]

@@ -5,8 +5,8 @@
 /// plane, and its friction is an elastic bristle that yields. This is Prandtl's model, which sticks without
 /// creep. With stretch s, ds/dt = v,
 ///     f = -(k s + c v), |f| <= mu m g, and |k s| <= mu m g by cutting s.
-/// k = m w^2 with w = 200 1/s: 0.15 mm of give at mu = 0.6. About the vertical the same with the torque
-/// mu m g r, r the mean distance of the face on the floor from its centre.
+/// k = m w^2 with w = 200 1/s: 0.15 mm of give at mu = 0.6. About the vertical the model has the torque mu m
+/// g r, with r the mean distance of the face on the floor from its centre.
 #pragma once
 
 #include <Eigen/Core>

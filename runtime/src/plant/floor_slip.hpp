@@ -8,10 +8,10 @@
 
 namespace zwang::runtime {
 
-/// A wheel slides with the speed of its lowest point along the directions that it holds: e . v of a mecanum
-/// wheel, e the axis of its roller at the floor; the norm of both directions of a plain wheel. The part
-/// beyond a tenth of the rim's speed counts, low-passed with 50 ms, as the guard's slip event has it. Does
-/// not allocate, lock, throw or print after construction.
+/// A wheel slides with the speed of its lowest point along the directions that it holds. For a mecanum wheel
+/// that is e . v, with e the axis of its roller at the floor. For a plain wheel it is the norm of both
+/// directions. The part beyond a tenth of the rim's speed counts, low-passed with 50 ms, as in the guard's
+/// slip event. Does not allocate, lock, throw or print after construction.
 class FloorSlip {
  public:
   FloorSlip(const solver::Model& model, double period);

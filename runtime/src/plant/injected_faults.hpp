@@ -16,15 +16,15 @@ class InjectedFaults {
 
   /// By hand: from its `at` until `lift`, before all others of its kind. `joint`: -1 of none.
   void put(const lang::Fault& fault, Eigen::Index joint);
-  /// What was put on by hand, of this kind and joint.
+  /// Ends the faults of this kind and joint that were put on by hand.
   void lift(lang::FaultKind kind, Eigen::Index joint);
 
   bool active(lang::FaultKind kind, double time) const noexcept;
   /// The first fault of the kind in force, or none; of those that name a joint, this one's.
   const lang::Fault* find(lang::FaultKind kind, double time, Eigen::Index joint = -1) const noexcept;
-  /// What arrives of a true sample; allocates nothing.
+  /// Turns a true sample into the one that arrives; allocates nothing.
   void spoil(Sensed& sensed) noexcept;
-  /// What the motors make of the command.
+  /// Turns the command into the motors' torques.
   void spoil(Eigen::VectorXd& tau, double time) noexcept;
 
  private:

@@ -1,9 +1,8 @@
 /// Dry and viscous friction of the joints, as the robot file gives it. Dry friction is an elastic bristle
-/// that yields (as in floor_friction.hpp): with stretch s, ds/dt = qd,
-///     torque = -(k s + c qd), |torque| <= coulomb, |k s| <= coulomb by cutting s,
-/// so that it sticks without creep. k = coulomb / presliding, and J w^2 at most. Where no presliding is
-/// given, k = J w^2. J is the joint's own inertia, and w = 500 1/s, as a bristle has to be slow beside the
-/// simulation's step.
+/// that yields (as in floor_friction.hpp), so it sticks without creep. With stretch s, ds/dt = qd,
+///     torque = -(k s + c qd), |torque| <= coulomb, |k s| <= coulomb by cutting s.
+/// k = coulomb / presliding, and J w^2 at most. Where no presliding is given, k = J w^2. J is the joint's own
+/// inertia, and w = 500 1/s, as a bristle has to be slow beside the simulation's step.
 #pragma once
 
 #include <Eigen/Core>

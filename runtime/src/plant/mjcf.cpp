@@ -119,8 +119,7 @@ class MjcfWriter {
     text_ += "</body>\n";
   }
 
-  /// The joint of an object with a guide, and its inertia. What else the guide does is in
-  /// object_guide.hpp.
+  /// The joint of an object with a guide, and its inertia. The guide's other effects are in object_guide.hpp.
   void write_guide(const lang::Guide& guide, const SceneObject& object, const ObjectGeometry& g,
                    const std::string& name) {
     if (!object.mass || !(*object.mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");

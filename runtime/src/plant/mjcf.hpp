@@ -1,17 +1,21 @@
 /// The simulation as text: MuJoCo's XML, written from our own model. Nothing here knows the simulator.
 ///
-/// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>` (with rollers
-/// `wheel_<w>_<i>`, on bodies and joints `roller_<w>_<i>`), `floor`; of the
-/// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`, `hull` (that lies on the floor once
-/// the base has fallen); of its arms `tip_<t>`; of the scene `object_<k>` (body) with geoms `object_<k>_face`
-/// and `object_<k>_edge_<c>`, `dock_<k>` (equality; those of robots are counted on after the objects'). All
-/// names of the scene's robots begin with `partner_<r>_`, r from 1.
+/// Names:
+///   body_<i>, joint_<j>, motor_<j>    after the model's numbers
+///   wheel_<w>                         with rollers wheel_<w>_<i>, on bodies and joints roller_<w>_<i>
+///   floor
+///   bumper_<c>                        corners of the robot's outline
+///   bumper_prism, skid_<c>            of the robot's outline
+///   hull                              the part that lies on the floor once the base has fallen
+///   tip_<t>                           of its arms
+///   object_<k>                        body of the scene, with geoms object_<k>_face and object_<k>_edge_<c>
+///   dock_<k>                          equality; those of robots are counted on after the objects'
+/// All names of the scene's robots start with `partner_<r>_`, r from 1.
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
 /// other, each pair one contact point. An arm meets faces with its tip, at any height. A corner is a sphere
-/// of 1 um tangent to both of its sides. Robots meet each other in the same way. Objects that move slide in
-/// the plane, on joints `object_<k>_x`,
-/// `_y`, `_turn`: their friction is in floor_friction.hpp.
+/// of 1 um tangent to both of its sides. Robots meet each other in the same way. Movable objects slide in the
+/// plane, on joints `object_<k>_x`, `_y`, `_turn`: their friction is in floor_friction.hpp.
 #pragma once
 
 #include <array>
@@ -25,7 +29,7 @@
 
 namespace zwang::runtime {
 
-/// What the text is written from, worked out once.
+/// The data from which the text is written, worked out once.
 struct SimulatedRobot {
   lang::Robot robot;
   std::string prefix;  ///< of all names of its parts
@@ -52,7 +56,7 @@ const solver::Frame& hook_of(const solver::Model& model, const lang::Dock& dock,
 
 inline constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet
 
-/// What is one robot's: meshes, its tree of bodies, its contacts with the floor, its motors.
+/// The text of one robot: meshes, its tree of bodies, its contacts with the floor, its motors.
 struct RobotText {
   std::string assets, body, contacts, motors;
 };

@@ -220,8 +220,8 @@ class RobotWriter {
     return is_hinged && wheel.held_directions() == 1 ? no_friction : floor_friction;
   }
 
-  /// From a wheel's rolling direction a x z to the first one that it holds, about z: the axis a lies a
-  /// quarter turn ahead, a roller's axis its angle further.
+  /// The angle about z from a wheel's rolling direction a x z to the first direction that it holds. The axis
+  /// a lies a quarter turn ahead, and a roller's axis lies ahead of a by the roller angle.
   static double turn_of_held(const solver::Wheel& wheel) {
     constexpr double quarter = 0.5 * std::numbers::pi;
     if (wheel.roller_angle) return quarter + *wheel.roller_angle;

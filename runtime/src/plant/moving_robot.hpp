@@ -25,8 +25,8 @@ class MovingRobot {
 
   void find_addresses(const mjModel_& m);
   int base_body() const noexcept { return base_body_; }
-  /// Faults of the base's own body; each replaces the one before it. [kg] more than it weighs, [m] farther
-  /// ahead than its centre of mass lies, times its own inertia about that.
+  /// Faults of the base's own body; each replaces the one before it. [kg] in excess of its weight, [m] ahead
+  /// of its centre of mass, and a factor of its own inertia about that centre.
   void set_payload(mjModel_& m, double mass) const noexcept;
   void shift_centre_of_mass(mjModel_& m, double ahead) const noexcept;
   void scale_inertia(mjModel_& m, double factor) const noexcept;

@@ -50,7 +50,7 @@ struct MujocoPlant::Simulation {
                                                      bool real_rollers);
   void find_addresses();
   void find_objects(const lang::Scene& scene);
-  /// What an object with a mass stands on.
+  /// The floor under an object with a mass.
   void add_floor(double friction, SimulatedObject& object) const;
   void find_docks(const lang::Scene& scene);
   void find_sensors(const lang::Scene& scene);

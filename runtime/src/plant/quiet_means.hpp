@@ -6,8 +6,8 @@
 
 namespace zwang::runtime {
 
-/// The acceleration of the base's origin and the planar sum of its contact forces, as norms of their means
-/// over 20 ms:
+/// The acceleration of the base's origin and the planar sum of its contact forces. Both are norms of their
+/// means over 20 ms:
 ///     a = |v(t) - v(t - T)| / T,   F = |sum f_i| / n,   T = n h = 20 ms.
 /// No controller bounds a hit, so no hit counts: both keep their values while a hit falls into the 20 ms.
 /// Before the first 20 ms they are 0.

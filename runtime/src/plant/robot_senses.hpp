@@ -1,4 +1,4 @@
-/// What one robot of a scene is told of itself and of what it sees.
+/// The measurements of one robot of a scene: of itself and of the objects that it sees.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ class RobotSenses {
   void start_at(const Sensed& actual);
   /// As SceneSignals::block.
   void block(const std::vector<bool>& blocked) noexcept { signals_.block(blocked); }
-  /// To be called once a step of the simulation. What the robot feels comes into `actual`; `torque`: what its
-  /// motors made in the last step.
+  /// To be called once a step of the simulation. Writes the force that the robot feels into `actual`.
+  /// `torque` is that of its motors in the last step.
   void measure(const Truth& truth, const Eigen::VectorXd& torque, Sensed& actual) noexcept;
   /// `actual` as it arrives: with noise, or without the base and with what corrects its reckoning.
   void tell(const Sensed& actual, Sensed& sensed) noexcept;

@@ -1,12 +1,11 @@
 /// A mecanum or omni wheel as it is built: a hub, and rollers around it that spin freely.
 ///
-/// The axis of a roller lies in the plane that touches the circle of the rollers' centres, at the radius c =
-/// R - r from the wheel's axis, turned by the roller angle delta from it. When the roller is turned by t out
-/// of the lowest place, its axis leans by sin delta sin t, and an ellipsoid with the semi-axes (r, r, a)
-/// reaches down to
+/// The axis of a roller is turned by the roller angle delta from the wheel's axis. It lies in the plane that
+/// touches the circle of the rollers' centres, at the radius c = R - r from the wheel's axis. If the roller
+/// is turned by t out of the lowest place, its axis leans by sin delta sin t. An ellipsoid with the semi-axes
+/// (r, r, a) then reaches below the wheel's axis down to
 ///   H(t) = c cos t + sqrt(r^2 + (a^2 - r^2) (sin delta sin t)^2)
-/// below the wheel's axis. H is R in the lowest place, and a makes it R again where the next of n rollers
-/// takes over, at t = pi/n:
+/// H is R in the lowest place. It is R again at t = pi/n, where the next of n rollers takes over, with
 ///   a^2 = r^2 + ((R - c cos t)^2 - r^2) / (sin delta sin t)^2
 #pragma once
 

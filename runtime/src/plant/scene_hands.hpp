@@ -15,7 +15,7 @@ class SceneHands {
 
   /// How many there are, at whatever time.
   std::size_t size() const noexcept { return hands_.size(); }
-  /// Those that press at `time` [s]; until the next call.
+  /// The hands that press at `time` [s]; until the next call.
   std::span<const BodyPush> at(double time) noexcept;
 
  private:

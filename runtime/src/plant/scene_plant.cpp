@@ -19,7 +19,7 @@ using lang::FaultKind;
 
 namespace {
 
-/// Those of a robot of the scene, or of the first one and the world, whose name is empty.
+/// The faults of a robot of the scene, or of the first one and the world, whose name is empty.
 std::vector<lang::Fault> faults_of(const std::string& robot, const lang::Scene& scene,
                                    const std::vector<lang::Fault>& more) {
   std::vector<lang::Fault> faults;
@@ -93,7 +93,7 @@ ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& 
       torque(Eigen::VectorXd::Zero(robot.program->robot.model.joint_count())) {}
 
 struct ScenePlant::Parts {
-  /// What a partner is told, beside what others may see of it, and what goes wrong with it.
+  /// The samples that a partner receives, its senses of itself and of others, and its faults.
   struct Told {
     RobotSenses senses;
     InjectedFaults faults;
@@ -149,7 +149,7 @@ struct ScenePlant::Parts {
     return status;
   }
 
-  /// What the floor's friction is where no fault names a wheel.
+  /// The floor's friction where no fault names a wheel.
   double floor_friction(double time) const noexcept {
     const lang::Fault* slip = faults.find(FaultKind::floor_friction, time);
     return slip != nullptr ? slip->value : scene.floor_friction;

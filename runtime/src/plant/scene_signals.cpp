@@ -110,7 +110,7 @@ SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scen
   for (const lang::SceneObject& object : scene.objects) {
     leaning_.push_back(object.leans() ? lang::outline_of(object, program.robot.bumper_height)
                                       : std::vector<solver::Vector3>{});
-    // One that is too low to be met is seen by its foot.
+    // An object that is too low for the bumper is seen by its foot.
     if (object.leans() && leaning_.back().empty()) leaning_.back() = lang::outline_of(object, 0.0);
   }
   for (const SceneSignal& signal : signals) {

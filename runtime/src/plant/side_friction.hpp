@@ -1,8 +1,8 @@
-/// Friction of wheels that slide sideways (skid steering), the wheel's own part of floor_friction.hpp: an
-/// elastic bristle that yields. Along the wheel's axis, with stretch s, ds/dt = v,
-///     f = -(k s + c v), |f| <= mu N, and |k s| <= mu N by cutting s,
-/// N the force that the floor carries the wheel with. The simulator's own contact holds the rolling direction
-/// only: one of its contacts that slides lifts off and hops.
+/// Friction of wheels that slide sideways (skid steering). It is an elastic bristle that yields, the wheel's
+/// own part of floor_friction.hpp. Along the wheel's axis, with stretch s, ds/dt = v,
+///     f = -(k s + c v), |f| <= mu N, and |k s| <= mu N by cutting s.
+/// N is the force that the floor carries the wheel with. The simulator's own contact holds the rolling
+/// direction only: one of its contacts that slides lifts off and hops.
 #pragma once
 
 #include <vector>

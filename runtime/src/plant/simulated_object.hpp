@@ -32,7 +32,7 @@ void follow_script(const SimulatedObject& object, double time, double* qpos, dou
 /// One with a mass follows no script any more that is over at this time: the floor holds it again.
 void let_go(SimulatedObject& object, double time) noexcept;
 
-/// What floor or guide do to it; moves its bristles by one step of `period` [s].
+/// Adds the forces of floor or guide on it; moves its bristles by one step of `period` [s].
 void add_resistance(SimulatedObject& object, double period, const double* qpos, const double* qvel,
                     double* force) noexcept;
 

@@ -88,8 +88,9 @@ int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphe
 
 mjfCollision collide_plane_sphere = nullptr;  ///< MuJoCo's own
 
-/// Turns the contact of a wheel so that its first tangent is the rolling direction, or as far from it as the
-/// wheel's geom says: friction may differ between the two. Only in simulations of this file, as above.
+/// Turns the contact of a wheel: its first tangent becomes the rolling direction, or is turned from it by the
+/// angle of the wheel's geom. Friction may differ between the two. Only in simulations of this file, as
+/// above.
 int collide_along(const mjModel* m, const mjData* d, mjContact* contact, int plane, int sphere,
                   mjtNum margin) {
   const int count = collide_plane_sphere(m, d, contact, plane, sphere, margin);
@@ -256,11 +257,11 @@ std::vector<GeomOwner> find_owners(const mjModel& model, const std::vector<Simul
   return owners;
 }
 
-/// MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration x < 0
-/// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So the
-/// stepped spring f = K x + B v + M a takes 1/r = M, that is d = A M/(1 + A M), k = K r and b = B r. The
-/// least impedance adds a mass of a thousandth of 1/A where M is less. solref holds (-k d, -b d): MuJoCo
-/// divides it by d and d^2, and multiplies k by d.
+/// MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration x < 0.
+/// There r = A (1 - d)/d, with A its estimate of the inverse mass at the contact and d the impedance. So the
+/// stepped spring f = K x + B v + M a takes 1/r = M, that is d = A M/(1 + A M), k = K r and b = B r. If M is
+/// less than a thousandth of 1/A, the least impedance raises it to that mass. solref holds (-k d, -b d), as
+/// MuJoCo divides it by d and d^2, and multiplies k by d.
 std::vector<ContactSpring> set_springs(mjModel& model, const std::vector<GeomOwner>& owners,
                                        const lang::Scene& scene, const std::vector<SimulatedRobot>& robots) {
   const auto touchable = [&](const GeomOwner& owner) {

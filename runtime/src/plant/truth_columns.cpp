@@ -1,4 +1,4 @@
-// What the plant measured, as columns of a log.
+// The plant's true values, as columns of a log.
 #include <algorithm>
 
 #include "place_columns.hpp"

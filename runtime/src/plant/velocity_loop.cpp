@@ -34,7 +34,7 @@ std::optional<Eigen::Vector3d> rate_of(const solver::Model& model, const WheelMo
   return std::nullopt;
 }
 
-/// What each motor's wheel counts: R^2 (V_x^2 + V_y^2) for 1 m/s, in the mean of x and y as far as wheels
+/// The weight of each motor's wheel: R^2 (V_x^2 + V_y^2) for 1 m/s, in the mean of x and y as far as wheels
 /// turn for them.
 std::vector<double> shares(const solver::Model& model, const std::vector<WheelMotor>& motors) {
   Eigen::Vector2d all = Eigen::Vector2d::Zero();

@@ -23,7 +23,7 @@ class SampledLine {
         delay_(delay),
         ring_(static_cast<std::size_t>(std::ceil(delay / cycle)) + 2, {first}) {}
 
-  /// What has arrived at `time`, `now` being at the other end.
+  /// The value that has arrived at `time`; `now` is the value at the other end.
   const Value& pass(const Value& now, double time) noexcept {
     if (time >= next_ - rounding) {
       newest_ = (newest_ + 1) % ring_.size();
@@ -57,14 +57,14 @@ class SampledLine {
 /// A PI loop at each driven wheel, in each step of the simulation:
 ///     torque = k_p (V - v) + k_i sum (V - v) dt,   k_p = m R^2 / (n T_c),   k_i = k_p / T_i,
 /// inside the command's bounds and the motor's limit. m is the mass that n wheels of the radius R drive,
-/// rotors included: alone on the floor the base follows a step as 1 - e^(-t/T_c), but for the integral. A
-/// wheel counts by what it turns for a way of the base, in the mean of the directions in which motors drive
-/// it: an omni wheel half. The integral stands still while the torque is at a bound and the error would push
-/// it farther.
+/// rotors included. Alone on the floor the base follows a step as 1 - e^(-t/T_c), apart from the integral.
+/// The weight of a wheel is its rotation for a way of the base. It is averaged over the directions in which
+/// motors drive the base: an omni wheel counts half. The integral is frozen while the torque is at a bound
+/// and the error would push it farther.
 ///
-/// A drive with torque limits of its own takes the motors' limits, whatever the command says. One that takes
-/// the base's twist turns it into V as drivers do, by where the wheels stand: with u the direction that the
-/// wheel holds at its contact point P, and d the way of P for 1 rad of the wheel,
+/// A drive with torque limits of its own takes the motors' limits, whatever the command says. A drive that
+/// takes the base's twist turns it into V as drivers do, by the places of the wheels. With u the direction
+/// that the wheel holds at its contact point P, and d the way of P for 1 rad of the wheel,
 ///     u . (v + w z x P + V d) = 0.
 class VelocityLoop {
  public:
