@@ -1,4 +1,4 @@
-/// What a drive that takes velocities was told, as columns of the log.
+/// The command to a drive that takes velocities, as columns of the log.
 #pragma once
 
 #include <array>

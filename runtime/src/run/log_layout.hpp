@@ -1,5 +1,5 @@
-/// Which column of the log holds what. The columns are the union over all tasks, so that they stay the same
-/// from the first record to the last; what is not in force is blank.
+/// The quantities of the log's columns. The columns are the union over all tasks, so that they stay the same
+/// from the first record to the last. A column whose statement is not in force is blank.
 #pragma once
 
 #include <span>

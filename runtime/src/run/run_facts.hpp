@@ -17,7 +17,7 @@ RunFacts facts_of(const RunnerSettings& settings, double period);
 /// Throws std::runtime_error where they do not say the control period, or a number is none.
 RunnerSettings settings_of(const RunFacts& facts);
 
-/// What `exactly` has written; nullopt for a text that is no number.
+/// The number that `exactly` has written; nullopt for a text that is no number.
 std::optional<double> number_in(const std::string& text);
 
 }  // namespace zwang::runtime

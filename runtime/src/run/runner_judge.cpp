@@ -1,5 +1,5 @@
-// Whether the robot is what the program says: clock, encoders, motors, sensors. What is found is told, or
-// stops it.
+// Compares the robot with the program's description: clock, encoders, motors, sensors. A difference is
+// reported, or stops the robot.
 #include <cmath>
 
 #include "run/runner_parts.hpp"

@@ -1,4 +1,4 @@
-/// What a runner is made of, and the phases of its step: they stand in the files runner_*.cpp.
+/// The parts of a runner, and the phases of its step: they stand in the files runner_*.cpp.
 #pragma once
 
 #include <limits>
@@ -39,9 +39,9 @@ struct Runner::Parts {
   Parts(const lang::Program& program, const RunnerSettings& settings);
 
   // Of runner_sense.cpp.
-  /// What is known of a good sample: itself, or with the base as the wheels tell it.
+  /// The state from a good sample: the sample itself, or with the base reckoned from the wheels.
   void estimate(const Sensed& sensed) noexcept;
-  /// The same of a drive whose samples come now and then.
+  /// The state of a robot whose drive sends samples at a lower rate than the ticks.
   void estimate_between_samples(const Sensed& sensed) noexcept;
   void estimate_base(const Sensed& sensed, double time) noexcept;
   void take_signals(const Sensed& sensed) noexcept;
@@ -53,7 +53,8 @@ struct Runner::Parts {
   void judge_clock(const Sensed& sensed) noexcept;
   /// Whether encoders confirm what the motors were told.
   void confirm() noexcept;
-  /// What motors and wheels made of the last command; `measured`: the sample before it was projected.
+  /// Compares the last command with the motion of motors and wheels. `measured`: the sample before its
+  /// projection.
   void compare(const solver::State& measured) noexcept;
   void judge_sensors() noexcept;
   void judge_snapshot(const Sensed& sensed) noexcept;
@@ -95,7 +96,7 @@ struct Runner::Parts {
   Shortfall find_shortfall() const noexcept;
 
   bool blends() const noexcept { return scheduler.set_count() > 1; }
-  /// What presses on the base at its origin, in its axes: felt, or estimated.
+  /// The force on the base at its origin, in its axes: felt, or estimated.
   const solver::Vector3& force_on_base() const noexcept {
     const solver::Vector3* felt = drive ? drive->felt_force() : nullptr;
     return felt != nullptr ? *felt : disturbance.base_force();

@@ -1,4 +1,4 @@
-// What is told of a run: its log, its limits, and whatever a host asks.
+// The reports of a run: its log, its limits, and the answers to a host.
 #include <algorithm>
 
 #include "run/runner_parts.hpp"
@@ -197,7 +197,7 @@ std::optional<ShortfallReport> Runner::shortfall() const {
 
 namespace {
 
-/// What a limit's row holds, where that is a region.
+/// The frame and the region of a limit's row, where it is a region's.
 std::string kept_by(const std::optional<LimitReport>& limit, const StatementTable& statements) {
   if (!limit) return {};
   const auto row = std::ranges::find_if(

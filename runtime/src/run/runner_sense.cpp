@@ -1,4 +1,4 @@
-// What is known of the robot, before anything is judged or asked of it.
+// The state of the robot, before it is judged or used by a task.
 #include "run/runner_parts.hpp"
 
 namespace zwang::runtime {
@@ -69,7 +69,7 @@ void Runner::Parts::estimate_base(const Sensed& sensed, double time) noexcept {
   reckoning = true;
   if (sensed.base_fix) {
     const double stamp = sensed.base_fix->stamp + guard.clock_shift();
-    // One that is stamped ahead must not keep out those that follow.
+    // A fix that is stamped ahead must not keep out the later ones.
     if (stamp > last_fix && stamp <= time + 0.5 * period) {
       last_fix = stamp;
       odometry.correct(last_fix, sensed.base_fix->pose);

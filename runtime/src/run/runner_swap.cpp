@@ -23,7 +23,7 @@ void Runner::Parts::take_events_of(Parts& before) noexcept {
   }
 }
 
-/// What motors were told last; outputs are each program's own.
+/// Takes over the last command to the motors; outputs are each program's own.
 void Runner::Parts::take_motion_of(const Command& before) noexcept {
   command.torque = before.torque;
   command.velocity = before.velocity;
@@ -32,7 +32,7 @@ void Runner::Parts::take_motion_of(const Command& before) noexcept {
   command.twist = before.twist;
 }
 
-/// Those of the same name stay as they are: a gripper does not open because a file was saved.
+/// Outputs of the same name stay as they are: a gripper does not open because a file was saved.
 void Runner::Parts::take_outputs_of(const Parts& before) noexcept {
   for (std::size_t i = 0; i < output_names.size(); ++i) {
     const auto was = std::ranges::find(before.output_names, output_names[i]);

@@ -1,4 +1,4 @@
-/// What comes into a tick from outside as columns of the log, with every digit: the snapshot and the
+/// The inputs of a tick from outside as columns of the log, with every digit: the snapshot and the
 /// parameters.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace zwang::runtime {
 
-/// Most entries are 0 on most ticks: those are left blank. What is not finite is written as an infinity, and
+/// Most entries are 0 on most ticks: those are left blank. A non-finite number is written as an infinity, and
 /// read back as NaN.
 class SensedColumns {
  public:

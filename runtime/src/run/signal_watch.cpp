@@ -33,7 +33,7 @@ std::optional<Event> SignalWatch::look(const Sensed& sensed, std::size_t expecte
   for (std::size_t i = 0; i < signals_.size(); ++i) {
     const SignalSample& sample = sample_of_program.signals[i];
     Watched& watched = signals_[i];
-    // One that stays until the next comes gets old, and that is no fault.
+    // A sample that stays until the next one comes gets old, and that is not a fault.
     if (!sample.valid || watched.is_told || sample.stamp == watched.stamp) continue;
     watched.stamp = sample.stamp;
     const double lead = sample.stamp - sample_of_program.time;

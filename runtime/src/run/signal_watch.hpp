@@ -12,9 +12,10 @@
 
 namespace zwang::runtime {
 
-/// Stamped ahead of the snapshot, or so long before it that it must be by another clock; with a number that
-/// is not finite or a rotation that is none. Without a word such a signal would look like one that never
-/// came. Does not allocate, lock, throw or print after construction.
+/// Reports samples that are stamped ahead of the snapshot, or so long before it that the clock must be
+/// another one. It also reports samples with a non-finite number or an invalid rotation. Without a report
+/// such a signal would look like one that never came. Does not allocate, lock, throw or print after
+/// construction.
 class SignalWatch {
  public:
   explicit SignalWatch(const lang::Program& program);

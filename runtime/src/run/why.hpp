@@ -37,7 +37,7 @@ struct RefusedSignal {
   double ahead = 0.0;  ///< [s] of its stamp; 0 where the stamp is not the reason
 };
 
-/// What `why_of` asks of a runner.
+/// The facts of a runner that `why_of` needs.
 struct EndOfRun {
   const Scheduler& scheduler;
   const TurningPoint& turning_point;

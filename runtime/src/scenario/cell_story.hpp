@@ -1,4 +1,4 @@
-/// What a report shows of a run whose log nobody keeps.
+/// The facts that a report shows of a run whose log is not kept.
 #pragma once
 
 #include <array>

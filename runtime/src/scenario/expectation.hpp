@@ -10,7 +10,7 @@
 
 namespace zwang::runtime {
 
-/// What a node of a condition comes to at one instant.
+/// The result of a condition's node at one instant.
 struct Reading {
   double value = 0.0;       ///< of a quantity
   double margin = 0.0;      ///< of a truth value
@@ -22,11 +22,11 @@ struct Reading {
 /// A condition that does not ask now: `elapsed < 2 s or ...` before 2 s.
 inline constexpr double not_asked = 1e300;
 
-/// How far a condition is from changing: positive where it holds. Of a comparison the distance between its
-/// sides as a share of the threshold, which is the fixed one or else the right one (infinite, where that is
-/// 0); `and` takes the least, `or` the largest, but beside a window of time the other side alone. What nobody
-/// knows does not hold. Allocates nothing: `readings` holds one for each node, and the last is the
-/// condition's.
+/// The margin of a condition from its change: positive where it holds. The margin of a comparison is the
+/// distance between its sides as a share of the threshold. The threshold is the fixed side or else the right
+/// one; where it is 0 the margin is infinite. `and` takes the least, `or` the largest, but beside a window of
+/// time the other side alone. An unknown condition does not hold. Allocates nothing: `readings` holds one for
+/// each node, and the last is the condition's.
 void read_condition(const lang::Condition& condition, const TrueFacts& facts,
                     std::vector<Reading>& readings) noexcept;
 

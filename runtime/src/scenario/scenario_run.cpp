@@ -40,7 +40,7 @@ void judge(const std::vector<ExpectationWatch>& watches, const std::vector<std::
   }
 }
 
-/// What the partners measured and did on their last tick. The largest share of a torque's limit.
+/// The partners' measurements and actions on their last tick. Returns the largest share of a torque's limit.
 double look_at_partners(ScenePlant& plant, TrueFacts& facts) noexcept {
   double most = 0.0;
   for (std::size_t i = 0; i < plant.partners().size(); ++i) {

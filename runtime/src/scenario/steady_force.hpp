@@ -1,4 +1,4 @@
-/// What a force is when nothing of it speeds anything up.
+/// The force of a contact while the base keeps its momentum.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,9 +7,9 @@
 
 namespace zwang::runtime {
 
-/// The mean of half a second in touch without a break, when the base was as fast at its end as at its
-/// beginning: whatever rattled in between, the base kept the momentum that it had, and the contact took what
-/// the motors pressed with. What is left of m dv / T is 0.06 N with 57 kg.
+/// The mean force of half a second in touch without a break. The base has to be as fast at its end as at its
+/// start. Then the base kept its momentum, whatever rattled in between, and the contact took all of the
+/// motors' force. The remainder of m dv / T is 0.06 N with 57 kg.
 class SteadyForce {
  public:
   /// `velocity`: planar twist of the base. `time` never goes back.

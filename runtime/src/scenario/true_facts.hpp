@@ -1,4 +1,4 @@
-/// What the plant measured, as conditions ask for it.
+/// The plant's true values, by the names in conditions.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ class TrueFacts {
   void note_slip(double time) noexcept;
   /// The torques that a tick gives, of which `is_switch` says that it went from one task to another.
   void note_torque(const Eigen::VectorXd& tau, bool is_switch) noexcept;
-  /// What the task file's outputs are set to.
+  /// The values of the task file's outputs.
   void note_outputs(std::span<const double> outputs) noexcept;
   /// `task` is one of the program's; `back` is no entry.
   void note_entry(int task, double time) noexcept;

@@ -1,4 +1,4 @@
-/// What a solution brings about along a row's axis.
+/// The acceleration of a solution along a row's axis.
 #pragma once
 
 #include "zwang/solver/solver.hpp"

@@ -74,7 +74,7 @@ bool says_alike(const AxisConstraint& a, const AxisConstraint& b, bool measured)
          same(a.acceleration, b.acceleration) && same(a.force, b.force);
 }
 
-/// What both allow; where they share nothing, what the newer one does.
+/// The range that both allow; if they share nothing, the newer one.
 Range tighter(const Range& before, const Range& now) {
   if (before.low > now.high || now.low > before.high) return now;
   return {std::max(before.low, now.low), std::min(before.high, now.high)};
@@ -94,7 +94,7 @@ int row_bound(const AxisConstraint& c) noexcept {
 }
 
 Blend::Blend(std::size_t most_wanted, int most_rows, double horizon) : most_kept_rows_(3 * most_rows) {
-  // What a set keeps has a row at least, or is of `always` and out of reach; what is wanted may join it.
+  // A kept constraint has a row at least, or is of `always` and out of reach; a wanted one may join it.
   const std::size_t capacity = static_cast<std::size_t>(most_kept_rows_) + 2 * most_wanted + 1;
   for (BlendedSet& set : sets_) {
     set.constraints =
@@ -123,7 +123,7 @@ void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
   find_entering(wanted);
 }
 
-/// What was in force before a run: `always`, so that its rows hold from the first tick on.
+/// The constraints before a run: those of `always`, so that its rows hold from the first tick on.
 void Blend::start_from_always(const std::vector<Wanted>& wanted) noexcept {
   kept_[0].clear();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -308,7 +308,7 @@ void Blend::put_before(std::size_t index, const std::vector<Wanted>& wanted) noe
   }
 }
 
-/// What a set before has of it now.
+/// The present form of a constraint that a set before keeps.
 AxisConstraint Blend::present(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept {
   if (kept.becomes < 0) return kept.constraint;
   const auto i = static_cast<std::size_t>(kept.becomes);

@@ -5,15 +5,13 @@
 ///
 ///   tau = progress tau_new + (1 - progress) tau_before
 ///
-/// An equality that all sets meet is met exactly at every instant, whatever enters, leaves or changes below
-/// it; a range or a sum that all sets keep is kept. So
+/// An equality that all sets meet is met exactly at every instant. A constraint that enters, leaves or
+/// changes below it has no effect on it. A range or a sum that all sets keep is kept. So
 ///
-///   what `always` says    is in every set, with its present values;
-///   a range that enters   joins the sets before at once, where it is one of the same axis as the tighter of
-///   both,
-///                         with a horizon that shrinks as the blend proceeds: what is beyond it has time to
-///                         stop;
-///   a range that leaves   stays in the sets before.
+///   a statement of `always`   is in every set, with its present values;
+///   a range that enters       joins the sets before at once, as the tighter of both where the axis has one,
+///                             with a horizon that shrinks during the blend: a motion beyond it can stop;
+///   a range that leaves       stays in the sets before.
 ///
 /// A set before keeps the constraints as they were put last. A switch in the middle of a blend makes a third
 /// set.
@@ -67,8 +65,8 @@ class Blend {
   /// Blends what is in force with `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
   /// length until the next switch.
   void start(const std::vector<Wanted>& wanted, double duration) noexcept;
-  /// Whether one set is in force, and the last `put` says so: until what is wanted comes into reach or goes
-  /// out of it, `renew` does what `put` would do.
+  /// Whether one set is in force, by the last `put`. `renew` then has the effect of `put`, until a wanted
+  /// constraint comes into reach or goes out of it.
   bool rests() const noexcept { return count_ == 1 && is_put_; }
   /// Writes those of `wanted` that have new values, by their indices.
   void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept;

@@ -21,7 +21,7 @@ solver::Vector3 effective_mass_of(const lang::Robot& robot);
 /// The index of the frame that is the base itself; it is appended when the program does not have it.
 int base_frame(std::vector<lang::FrameDeclaration>& frames, const lang::Robot& robot);
 
-/// Brings the base to rest as the robot file's `stop` allows: the drivers at level 1; at level 0 the stop's
+/// Brings the base to rest as the robot file's `stop` allows. Level 1 has the drivers. Level 0 has the stop's
 /// deceleration, before which position ranges give way, and the robot's limits.
 lang::Task brake_task(const char* name, const lang::Robot& robot, int base);
 

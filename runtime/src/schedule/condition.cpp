@@ -137,8 +137,8 @@ Decision::Decision(const lang::Condition& condition, SharedNames& names) {
   if (!steps_.empty()) mark(static_cast<int>(steps_.size()) - 1, Verdict::no, Verdict::yes);
 }
 
-/// What a value of the node decides. Of an `and` a false operand decides as much as the `and` does when it is
-/// false, of an `or` a true one; behind a `not` the two change places.
+/// The decision that a value of the node makes. A false operand of an `and` decides as much as a false `and`,
+/// and a true operand of an `or` as much as a true `or`. Behind a `not` the two change places.
 void Decision::mark(int node, std::optional<Verdict> if_false, std::optional<Verdict> if_true) {
   Step& step = steps_[static_cast<std::size_t>(node)];
   step.if_false = if_false;

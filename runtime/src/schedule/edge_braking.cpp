@@ -12,8 +12,8 @@ double braking_alone(const Eigen::Vector2d& n, const Eigen::Vector2d& box) noexc
 }
 
 /// By Farkas there is such an a when no weights l1, l2 >= 0 contradict it,
-///   t (l1 s1 + l2 s2) <= max over the box of m.a = b_x |m_x| + b_y |m_y|    with m = l1 n1 + l2 n2,
-/// and what bounds t is linear between the weights at which m_x or m_y vanishes: t is decided there.
+///   t (l1 s1 + l2 s2) <= max over the box of m.a = b_x |m_x| + b_y |m_y|    with m = l1 n1 + l2 n2.
+/// The bound of t is linear between the weights at which m_x or m_y vanishes. So t is decided there.
 double share_of_two(const Eigen::Vector2d& n1, const Eigen::Vector2d& n2,
                     const Eigen::Vector2d& box) noexcept {
   const double s1 = braking_alone(n1, box), s2 = braking_alone(n2, box);

@@ -1,8 +1,8 @@
-/// How hard a base can brake before the edges of a region, of which two may bind at once.
+/// The largest deceleration of a base before the edges of a region, of which two may bind at once.
 ///
-/// The base accelerates within a box of its own axes, |a_x| <= b_x and |a_y| <= b_y, and only once at a time:
-/// before two edges with the inward normals n1, n2 one and the same a has to give n1.a >= a_1 and n2.a >=
-/// a_2.
+/// The base accelerates within a box of its own axes, |a_x| <= b_x and |a_y| <= b_y. It has only one
+/// acceleration a at a time. So before two edges with the inward normals n1, n2 the same a has to give
+/// n1.a >= a_1 and n2.a >= a_2.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@ namespace zwang::runtime {
 /// `n`: in the base's axes. `box`: b_x, b_y [m/s^2].
 double braking_alone(const Eigen::Vector2d& n, const Eigen::Vector2d& box) noexcept;
 
-/// The share of both decelerations that is left where both are needed: the largest t <= 1 such that some a in
-/// the box has n1.a >= t s1 and n2.a >= t s2, with s_i = braking_alone(n_i).
+/// The share of both decelerations that is left where both are needed. It is the largest t <= 1 such that
+/// some a in the box has n1.a >= t s1 and n2.a >= t s2, with s_i = braking_alone(n_i).
 double share_of_two(const Eigen::Vector2d& n1, const Eigen::Vector2d& n2,
                     const Eigen::Vector2d& box) noexcept;
 

@@ -1,4 +1,4 @@
-/// What the world presses with on frames of the robot, as joints and torques tell it.
+/// The contact wrenches on frames of the robot, estimated from joints and torques.
 #pragma once
 
 #include <vector>

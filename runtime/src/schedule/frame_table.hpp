@@ -30,7 +30,7 @@ class ZWANG_EXPORT FrameTable {
   void carry_on(int signal, const solver::AttachedFrame& seen) noexcept;
   /// Gives a frame the pose that `source` has now; its parent stays. Frames that hang on it come along.
   void set(int frame, int source) noexcept;
-  /// What adds up adds up from here.
+  /// Sums start at 0 from here.
   void start_sums() noexcept;
   /// For an interruption: keeps the sums, and goes on from them.
   void keep_sums() noexcept;

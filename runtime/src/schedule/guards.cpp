@@ -34,7 +34,7 @@ void Guards::advance(GuardedExits& guarded, const Facts& facts,
         release, state.is_whole);
     state.at_once = unknown_ == Unknown::fires_when_stale && now.verdict == Verdict::unknown && now.stale;
     const bool holds = now.verdict == Verdict::yes || state.at_once;
-    // What is not known has not passed the release either.
+    // An unknown condition has not passed the release either.
     state.held = holds || (state.held && now.verdict == Verdict::unknown);
     state.true_ticks = holds ? std::min(state.true_ticks + 1, 1 << 30) : 0;
     state.longest_ticks = std::max(state.longest_ticks, state.true_ticks);

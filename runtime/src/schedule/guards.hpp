@@ -45,7 +45,7 @@ class Guards {
   double longest(std::size_t exit) const noexcept { return states_[exit].longest_ticks * period_; }
   /// Whether `values` has all nodes of the exit's condition: false where some of them decided it.
   bool is_whole(std::size_t exit) const noexcept { return states_[exit].is_whole; }
-  /// What the nodes of the exit's condition were when it was evaluated last.
+  /// The values of the nodes of the exit's condition at its last evaluation.
   std::span<const double> values(std::size_t exit) const noexcept {
     return std::span(values_).subspan(exit * most_nodes_, most_nodes_);
   }

@@ -12,12 +12,11 @@ using lang::AxisStatements;
 using solver::Axis;
 using solver::Quantity;
 
-/// Before every level that a task file can name: forces and accelerations of the base are those of a robot
-/// whose arm is stiff, and a push keeps its newtons. Behind them, the push would be worked out for an arm
-/// that hangs loose.
+/// Above every level that a task file can name. Forces and accelerations of the base are then those of a
+/// robot whose arm is stiff, and a push keeps its newtons. Below those levels, the push would be computed for
+/// an arm that hangs loose.
 constexpr int hold_level = -1;
-/// Short, as what presses against the world bends a held joint by T^2 times the acceleration that does not
-/// come about. [s]
+/// A short time: a contact bends a held joint by T^2 times the missing acceleration. [s]
 constexpr double hold_time_constant = 0.05;
 
 /// The body that a frame rides on; -1: none of the robot's.

@@ -1,4 +1,4 @@
-/// What a scheduler is made of. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
+/// The parts of a scheduler. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
 /// tick_rows, tick_return, tick_sides, tick_paths.
 #pragma once
 
@@ -59,7 +59,7 @@ struct InReach {
   std::size_t count = 0;
 };
 
-/// What a solution makes along sides 0 and `across` of a plane's norm.
+/// The readings of a solution along sides 0 and `across` of a plane's norm.
 struct PlaneReading {
   std::array<int, 2> row{-1, -1};        ///< of Solution::rows, along them; -1: not in force
   std::array<double, 2> acceleration{};  ///< [m/s^2]

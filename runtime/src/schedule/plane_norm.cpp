@@ -41,7 +41,8 @@ Matrix2d mobility_of(const solver::Model& model, const solver::AttachedFrame& mo
   return Matrix2d{{x, mixed}, {mixed, y}};
 }
 
-/// The most that a wall feels, at any normal between those of sides 0 and 1, of a push that both just allow:
+/// The largest force that a wall feels, at any normal between those of sides 0 and 1. The push P is one that
+/// both sides just allow:
 ///   f(n) = n'W P / n'W n,   f(n_0) = f(n_1) = 1
 double most_between(const Matrix2d& W, double first) {
   const Vector2d n0 = direction(first), n1 = direction(first + side_angle);

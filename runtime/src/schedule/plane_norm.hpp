@@ -56,7 +56,7 @@ PlaneNorm plane_norm_of(const solver::Model& model, const solver::AttachedFrame&
 /// o of a mass whose largest and smallest effective value differ by `ratio` >= 1, at the worst orientation.
 double mass_factor_of(double ratio) noexcept;
 
-/// What a point that rolls may accelerate with ahead while it accelerates across by `across`. [m/s^2]
+/// The allowed acceleration ahead of a rolling point while it accelerates across by `across`. [m/s^2]
 solver::Range ahead_of(double most, double across) noexcept;
 
 }  // namespace zwang::runtime

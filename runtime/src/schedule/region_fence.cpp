@@ -130,8 +130,8 @@ void RegionFence::find_meeting() {
   }
 }
 
-/// With r = min(b_x, b_y): a disc of that radius is in the box, and no edge alone brakes with more than the
-/// box's corner has, so that a share is r cos(theta/2) / |b| at least.
+/// A share is at least r cos(theta/2) / |b|, with r = min(b_x, b_y). A disc of that radius is in the box, and
+/// no edge alone brakes with more than the box's corner has.
 double RegionFence::weakest_braking(const Point& box) const noexcept {
   const double r = box.minCoeff();
   constexpr double least = 1e-3;  // [m/s^2]

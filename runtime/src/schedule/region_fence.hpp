@@ -1,5 +1,5 @@
-/// Keeps a point or the robot's footprint inside a region: one row for each pair of features, of what moves
-/// and of the region's edge, that come near each other.
+/// Keeps a point or the robot's footprint inside a region. Each row keeps one pair of features apart that
+/// come near each other: one of the moved frame, and one of the region's edge.
 ///
 /// With d the signed distance of a pair, every pair asks d >= margin:
 ///   corner and edge     the corner's place along the edge's inward normal

@@ -152,7 +152,7 @@ void Scheduler::Parts::follow(const lang::Condition& condition) {
   }
 }
 
-/// Who looks may stand in the world: what it looks at moves.
+/// The observer of a bearing may stand in the world: then the observed frame moves.
 bool Scheduler::Parts::is_bearing_of_the_robot(const lang::Group& g) const noexcept {
   return g.kind == lang::GroupKind::feature &&
          features[static_cast<std::size_t>(g.feature)].kind == lang::FeatureKind::bearing &&

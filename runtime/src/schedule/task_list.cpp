@@ -171,7 +171,7 @@ void shape(lang::Group& group, const lang::Program& program,
     require_index(feature.second, frames.size(), "a feature's frame");
     group.move = feature.first;
     group.in = feature.second;
-    // What two frames measure between them they measure either way.
+    // A quantity between two frames is the same either way.
     const bool both_ways =
         feature.kind == lang::FeatureKind::distance || feature.kind == lang::FeatureKind::angle;
     if (both_ways && !is_on_robot(frames, group.move)) std::swap(group.move, group.in);

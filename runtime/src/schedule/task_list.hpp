@@ -9,7 +9,7 @@
 namespace zwang::runtime {
 
 /// The program's tasks with the robot's limits and the joints to hold, then `done`, `failed` and `always`. A
-/// group `inside` a region has one entry of `axes` that stands for its rows; one on a feature has the
+/// group `inside` a region has one entry of `axes` that stands for its rows. A group on a feature has the
 /// feature's frames as `move` and `in`, the one that the robot can move first.
 struct TaskList {
   /// Throws std::invalid_argument on an index that is out of range. `frames` are the program's, with the

@@ -1,4 +1,4 @@
-/// What a task was waiting for at the moment it was left.
+/// The waiting conditions of a task at the moment it was left.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,8 @@ void mark(std::uint64_t& bits, std::size_t exit) {
 
 }  // namespace
 
-/// Those of `always` on every tick; those of a task never on the tick of its entry, which is the one that
-/// this is not called in for them.
+/// The exits of `always` are evaluated on every tick. A task's exits are not evaluated on the tick it is
+/// entered: this is not called on that tick.
 void Scheduler::Parts::advance_guards() noexcept {
   always_guards.advance(guarded[static_cast<std::size_t>(tasks.always())], *this, parameters);
   if (task >= 0) guards.advance(guarded[static_cast<std::size_t>(task)], *this, parameters);
@@ -39,9 +39,8 @@ bool Scheduler::Parts::is_heeded(const lang::Target& target) const noexcept {
   return to.kind == lang::TargetKind::back ? interruption.task >= 0 : !is_own_target(to);
 }
 
-/// The exit of `always` that fires: the first that is due; -1 for none. While one that is due has its own
-/// target active, of those behind it only the ones that end the run count: else two that are due would take
-/// turns.
+/// The exit of `always` that fires: the first that is due; -1 for none. If a due exit's own target is active,
+/// only the exits below it that end the run can fire. Otherwise two due exits would alternate.
 int Scheduler::Parts::first_interruption() const noexcept {
   const std::vector<lang::Exit>& exits = tasks[tasks.always()].exits;
   bool stays = false;

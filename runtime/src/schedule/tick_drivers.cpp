@@ -22,12 +22,12 @@ namespace {
 using solver::Quantity;
 using solver::Range;
 
-/// What `force` has beyond the dead band around 0.
+/// The part of `force` beyond the dead band around 0.
 double beyond(double force, double dead_band) {
   return std::copysign(std::max(0.0, std::abs(force) - dead_band), force);
 }
 
-/// What the driver asks for without any range.
+/// The acceleration that the driver asks for without any range.
 double asked_by(const solver::Driver& driver, double error, const solver::Coordinate& now) {
   const double w = 1.0 / driver.time_constant;
   return driver.quantity == Quantity::velocity ? w * error : w * w * error - 2.0 * w * now.velocity;
@@ -35,7 +35,7 @@ double asked_by(const solver::Driver& driver, double error, const solver::Coordi
 
 }  // namespace
 
-/// The driver as the task has it; where its axes or its value are not known, one that stands still with the
+/// The driver of the task. If its axes or its value are not known, it is a driver that stands still with the
 /// same force, or one that lets go.
 solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
   const lang::AxisStatements& s = *a.says;

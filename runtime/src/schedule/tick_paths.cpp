@@ -33,8 +33,8 @@ bool Scheduler::Parts::is_off_path(const lang::Group& group) const noexcept {
   return follower != nullptr && !follower->is_known();
 }
 
-/// On entry a frame may be anywhere along the path; one that another task has led along it, or that an
-/// interruption has held up, goes on where it was.
+/// On entry a frame may be anywhere along the path. If another task has led it along the path, or an
+/// interruption has held it up, it goes on from its place.
 void Scheduler::Parts::follow_paths(int owner, bool enters) noexcept {
   for (const lang::Group& g : tasks[owner].groups) {
     if (g.path < 0 || !is_known(g.in) || !is_known(g.move)) continue;

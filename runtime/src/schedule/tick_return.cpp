@@ -1,9 +1,9 @@
-// Step 7 of the tick: the way back into a range or a region, and what is in force in an end.
+// Step 7 of the tick: the way back into a range or a region, and the constraints of a task that ends.
 //
 // Outside of a position range a point of the moved frame comes back along the inward normal n with
-// min(v_brk(|d|), v_n). `return` bounds the speed of the frame's origin. Two other motions take from it: the
-// origin's velocity across n (two edges are left at once, or wheels hold the base to its heading), and a turn
-// that moves the point outwards. With v the velocity of the origin and v_p that of the point
+// min(v_brk(|d|), v_n). `return` bounds the speed of the frame's origin. Two other motions take from it. One
+// is the origin's velocity across n: two edges are left at once, or wheels hold the base to its heading. The
+// other is a turn that moves the point outwards. With v the velocity of the origin and v_p that of the point
 //
 //   v_n = sqrt(v_ret^2 - |v - (n . v) n|^2) + min(0, n . (v_p - v)), but half of v_ret at least.
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr double told_distance = 0.01;  // [m]
 // Two edges see each other a tick late, and casters swing: up to 1.1 % of speed, where 1 % is allowed.
 constexpr double share_of_return = 0.997;
 constexpr double told_angle = 0.0174532925199;  // [rad] 1 deg
-// What a base may gain while its last forces fade: as much as at half of the speed that counts as rest.
+// The speed that a base may gain while its last forces fade: half of the speed that counts as rest.
 constexpr double gained_speed = 0.005;  // [m/s]
 
 /// So that a base at rest may stay at rest.
@@ -120,7 +120,7 @@ void Scheduler::Parts::only_hold_back(solver::AxisConstraint& c) const noexcept 
   c.return_speed = 0.0;
 }
 
-/// What leaves fades for as long as the robot gets no faster by it.
+/// Leaving constraints fade for as long as the robot gets no faster by it.
 void Scheduler::Parts::keep_energy_from_rising() noexcept {
   if (!(blend_time > 0.0)) return;
   const double gained = kinetic_energy(model, *state, frames.motions()) - energy_at_end;

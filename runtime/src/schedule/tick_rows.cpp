@@ -43,7 +43,7 @@ Range Scheduler::Parts::value(const lang::ValueRange& range) const noexcept {
   return {range.low.evaluate(parameters), range.high.evaluate(parameters)};
 }
 
-/// What the acceleration and force ranges in force leave for braking along the base's x, y and rz.
+/// The braking that the acceleration and force ranges in force leave along the base's x, y and rz.
 void Scheduler::Parts::find_braking() noexcept {
   braking.setConstant(solver::infinity);
   const auto tighten = [&](int i, double most) { braking(i) = std::min(braking(i), most); };
@@ -83,8 +83,8 @@ double Scheduler::Parts::braking_along(const solver::Vector3& direction) const n
   return std::isfinite(most) ? most : braking.head<2>().minCoeff();
 }
 
-/// a_brk of a position range: what the axis's own acceleration range allows, else those in force on the base;
-/// never more than the force range can do to the robot's mass.
+/// a_brk of a position range: the limit of the axis's own acceleration range, else of those in force on the
+/// base. It is never more than the force range can do to the robot's mass.
 double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisStatements& s) const noexcept {
   const bool turns = is_rotation(s.axis);
   double most = turns ? braking(2) : braking.head<2>().minCoeff();
@@ -101,7 +101,7 @@ double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisS
   return std::max(most, least_braking);
 }
 
-/// What does not change of the axis's constraint until the next switch.
+/// The constant part of the axis's constraint until the next switch.
 void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
   const lang::Group& g = *a.group;
   Wanted& w = wanted.emplace_back();
@@ -339,7 +339,7 @@ void Scheduler::Parts::put() noexcept {
   }
 }
 
-/// What the solver made of the rows, for the guards of the next tick.
+/// Reads the solution of the rows, for the guards of the next tick.
 void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
   mobility = solution.mobility;
   for (ActiveAxis& a : axes) {

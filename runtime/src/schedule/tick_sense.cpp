@@ -109,7 +109,7 @@ Fact Scheduler::Parts::feature(const lang::Feature& feature) const noexcept {
   return {solver::coordinate_of(c, frames.motions()).position};
 }
 
-/// What the axis measures, between which frames, and nothing else of its constraint.
+/// The axis's measure and its frames, without the rest of its constraint.
 solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, const lang::AxisStatements& axis,
                                                   const ActiveAxis* active_axis) const noexcept {
   solver::AxisConstraint c;

@@ -24,8 +24,8 @@ void Scheduler::Parts::apply(const std::vector<lang::SetAction>& actions) noexce
   }
 }
 
-/// The frame whose pose is not known now, of those that are copied and those that are set; -1: none. What
-/// is set from it, or hangs on it, would be at a false place.
+/// The frame whose pose is not known now, of the copied frames and the set ones; -1: none. A frame that is
+/// set from it, or depends on it, would be at a false place.
 int Scheduler::Parts::unknown_frame_of(const std::vector<lang::SetAction>& actions) const noexcept {
   for (const lang::SetAction& action : actions) {
     if (action.kind != lang::SetKind::frame) continue;
@@ -44,7 +44,7 @@ void Scheduler::Parts::refuse_set(Transition& t, int unknown_frame) const noexce
   t.resumes = false;
 }
 
-/// Those of the exit that is taken; nullptr where no exit is.
+/// The actions of the exit that is taken; nullptr where no exit is.
 const std::vector<lang::SetAction>* Scheduler::Parts::exit_sets(const Transition& t) const noexcept {
   if (t.cause != Cause::always && t.cause != Cause::exit) return nullptr;
   const int owner = t.cause == Cause::always ? tasks.always() : t.from;
@@ -150,8 +150,8 @@ void Scheduler::Parts::resume() noexcept {
   interruption = {};
 }
 
-/// What its exits are now. Who asks why a task went on wants to see all of a condition, not only what decided
-/// it.
+/// The present state of its exits. A reader who asks why a task went on wants to see all of a condition, not
+/// only the operands that decided it.
 void Scheduler::Parts::remember(TaskSnapshot& snapshot, int of_task) const noexcept {
   const Guards& of = of_task == tasks.always() ? always_guards : guards;
   const std::vector<lang::Exit>& exits = tasks[of_task].exits;
@@ -208,7 +208,7 @@ void Scheduler::Parts::list_axes(bool resumes) noexcept {
       }
     }
   };
-  // Those of `always` stay, with their `here`, from the start of the run on.
+  // The axes of `always` stay, with their `here`, from the start of the run on.
   if (axes.empty()) {
     list(tasks.always());
     always_axes = axes.size();

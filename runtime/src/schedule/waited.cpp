@@ -1,4 +1,4 @@
-// What the exits of a task waited for, out of the values that their conditions had.
+// The conditions that the exits of a task waited for, from the values of their nodes.
 #include <algorithm>
 #include <cmath>
 
@@ -38,9 +38,9 @@ struct Evaluated {
   std::span<const double> values;
 };
 
-/// The nodes that keep `node` from being `wanted`: of an `and` that should be true its operands that are not,
-/// of one that should be false both; an `or` the other way around; behind a `not` what is wanted turns
-/// around.
+/// The nodes that keep `node` from being `wanted`. For an `and` that should be true, they are the operands
+/// that are not true. For an `and` that should be false, they are both operands. An `or` is the other way
+/// around. Behind a `not` the wanted value is reversed.
 void find_holders(const Evaluated& of, int node, bool wanted, std::vector<int>& holders) {
   const Verdict now = verdict_of(of.value(node));
   if (now == (wanted ? Verdict::yes : Verdict::no)) return;
