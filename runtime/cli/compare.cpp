@@ -1,4 +1,4 @@
-// What two runs do not have alike, for the page that shows them together.
+// The differences between two runs, for the page that shows them together.
 #include <algorithm>
 #include <set>
 

@@ -18,7 +18,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What stands between the lines that both begin with and those that both end with.
+/// Finds the lines between the common beginning and the common end of two files.
 void find_difference(const std::string& first, const std::string& second, FilePair& pair) {
   const std::vector<std::string> a = lines_of(first), b = lines_of(second);
   const std::size_t shorter = std::min(a.size(), b.size());

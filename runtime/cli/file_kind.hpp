@@ -33,7 +33,7 @@ struct Reading {
   bool with_plant = false;            ///< the simulated plant of a task or robot file is asked, E915
   std::optional<std::string> task{};  ///< that a connection file is checked against
 };
-/// What was read, in a few words; nothing when it is bad.
+/// The content that was read, in a few words; nothing when it is bad.
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
                                    const Reading& reading = {});
 

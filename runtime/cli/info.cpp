@@ -26,7 +26,7 @@ struct ToldEvent {
   std::string code, signal;
 };
 
-/// What happens in a log, record by record.
+/// The events of a log, record by record.
 class Story {
  public:
   void begin(const runtime::LogContents& head) {

@@ -9,7 +9,7 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal sets it");
 
-/// Who asks again does not want to wait for the end: that ends the process.
+/// A second interruption ends the process at once: the operator does not want to wait for the end.
 extern "C" void on_interruption(int signal) {
   interrupted = true;
   std::signal(signal, SIG_DFL);

@@ -15,8 +15,8 @@ namespace zwang::cli {
 
 nlohmann::ordered_json json_of(const runtime::Why& why);
 
-/// What the page of a run draws: robot, scene, regions and frames. Lengths in m, angles in rad; a pose is {p:
-/// [x, y, z], r: its rotation by rows}.
+/// The drawing of the page of a run: robot, scene, regions and frames. Lengths in m, angles in rad; a pose is
+/// {p: [x, y, z], r: its rotation by rows}.
 nlohmann::ordered_json world_of(const lang::Program& program);
 
 /// Each task, each way between two of them, and the task that the run starts in.
@@ -29,7 +29,7 @@ nlohmann::ordered_json bounds_of(const lang::Program& program);
 /// All that the page shows of a run.
 nlohmann::ordered_json page_data(const std::filesystem::path& log, const runtime::Series& series);
 
-/// What two runs do not have alike.
+/// The differences between two runs.
 nlohmann::ordered_json comparison_of(const std::filesystem::path& first_log, const runtime::Series& first,
                                      const std::filesystem::path& second_log, const runtime::Series& second);
 

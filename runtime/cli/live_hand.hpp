@@ -17,10 +17,10 @@ class LiveHand {
   /// That does nothing yet. The program has a scene.
   explicit LiveHand(const lang::Program& program);
 
-  /// What the page may ask for: `signals`, `faults` and `objects` by name; a fault has its `words`, or the
+  /// The choices of the page: `signals`, `faults` and `objects` by name. A fault has its `words`, or the
   /// `unit`, `low` and `high` of its number.
   nlohmann::ordered_json choices() const;
-  /// What is in force: the signals that are `blocked`, and `faults` by name, each a word or a number.
+  /// The choices in force: the signals that are `blocked`, and `faults` by name, each a word or a number.
   nlohmann::ordered_json in_force() const;
 
   /// `{"do": "push", "at": [x, y], "force": [x, y]}`: 500 N at most, within 5 m of the base's origin;

@@ -154,7 +154,7 @@ struct LiveServer::Parts {
     return lws_http_transaction_completed(socket) != 0 ? -1 : 0;
   }
 
-  /// What the page gets next; nothing where it has all.
+  /// The next message for the page; nothing where it has all.
   Message next_for(Page& of) {
     const std::lock_guard lock(mutex);
     if (first && of.begin != begins) {

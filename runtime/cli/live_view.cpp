@@ -141,7 +141,7 @@ void LiveView::look(runtime::Runner* runner) {
   if (server_.pages() == 0) hand_.let_go();
 }
 
-/// What is no request is not obeyed.
+/// Obeys a request of the page. Any other message is ignored.
 void LiveView::obey(const std::string& request, runtime::Runner* runner) {
   const nlohmann::json json = nlohmann::json::parse(request, nullptr, false);
   if (!json.is_object()) return;

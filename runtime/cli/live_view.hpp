@@ -22,7 +22,7 @@ class LiveView {
   /// Listens, and tells where. Throws Impossible.
   explicit LiveView(int port);
 
-  /// A run begins. What comes back records it; it lives no longer than the view.
+  /// Starts a run. The returned sink records it; it lives no longer than the view.
   std::unique_ptr<runtime::LogSink> begin(const lang::Program& program, const lang::Diagnostics& diagnostics,
                                           const runtime::Runner& runner);
   bool has_begun() const { return has_begun_; }
@@ -32,7 +32,7 @@ class LiveView {
 
   /// Between two ticks. `time` [s] is that of the run.
   void wait_for_tick(runtime::Runner& runner, double time, const std::atomic<bool>& interrupted);
-  /// What somebody does to the simulated world by the page. Its push ends with the last page.
+  /// The actions of a person on the simulated world by the page. Their push ends with the last page.
   const runtime::Hand& hand() const { return hand_.hand(); }
   /// The page wants the run from its begin.
   bool is_restart_asked() const { return restart_; }

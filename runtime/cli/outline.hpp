@@ -1,5 +1,5 @@
-/// What the program can be asked, as data: completions of three shells and the manual page are printed from
-/// it.
+/// The verbs and options of the program, as data: completions of three shells and the manual page are printed
+/// from it.
 #pragma once
 
 #include <string>

@@ -37,7 +37,7 @@ bool stdout_can_be_written_over() noexcept;
 void secure_standard_streams();
 
 using runtime::with_unit;
-/// What `lang::render_human` writes, with its severities marked.
+/// The text that `lang::render_human` writes, with its severities marked.
 std::string rendered(const lang::Diagnostics& diagnostics, const lang::RenderOptions& options = {});
 std::string padded(std::string_view text, std::size_t width);       ///< to the left
 std::string padded_left(std::string_view text, std::size_t width);  ///< to the right

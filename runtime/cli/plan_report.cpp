@@ -19,7 +19,7 @@ const char* acceleration_unit(bool turns) {
   return turns ? "rad/s^2" : "m/s^2";
 }
 
-/// What the row does with its quantity.
+/// The effect of the row on its quantity, in a word.
 const char* word(solver::RowKind kind) {
   if (kind == solver::RowKind::driver) return "drives";
   if (kind == solver::RowKind::upper) return "at most";

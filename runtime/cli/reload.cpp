@@ -66,8 +66,8 @@ Reloads::Stamps Reloads::stamps() const {
   return stamps;
 }
 
-/// Editors write in pieces, or move a new file into the place of the old one: what is loaded has stayed as it
-/// is from one look to the next.
+/// Editors write in pieces, or move a new file into the place of the old one. So files are loaded when they
+/// have stayed unchanged from one look to the next.
 void Reloads::watch() {
   Stamps known = stamps(), last = known;
   while (!is_over_) {
@@ -81,8 +81,8 @@ void Reloads::watch() {
   }
 }
 
-/// The plant was built of the robot and scene files, and of what the task files of other robots say: the
-/// first of them whose text is another one now. Empty: none.
+/// The first file beside the task whose text has changed. The plant was built from the robot and scene files,
+/// and from the task files of other robots. Empty: none has.
 std::string Reloads::changed_beside_the_task() const {
   for (std::size_t i = 1; i < first_.sources().size(); ++i) {
     const lang::Source& source = first_.sources()[i];

@@ -16,14 +16,14 @@
 
 namespace zwang::cli {
 
-/// Looks at the files of a run on a thread of its own. When one has changed, and has stayed as it is for a
-/// moment, all are loaded. With an error the diagnostics are printed and the old program goes on; else the
-/// new one is swapped in between two ticks, at its start task, and a new log goes on where the last one ends.
-/// The robot, the scene and the signals are those that the run began with: where another file than the task's
-/// is not what it was then, that is told, and nothing is swapped in.
+/// Looks at the files of a run on a thread of its own. When one has changed, and then stayed unchanged for a
+/// moment, all are loaded. With an error the diagnostics are printed and the old program goes on. Otherwise
+/// the new one is swapped in between two ticks, at its start task, and a new log continues the last one. The
+/// robot, the scene and the signals are those of the run's start. If another file than the task's has changed
+/// since then, that is reported, and nothing is swapped in.
 class Reloads {
  public:
-  /// What is referred to must outlive it.
+  /// The referenced objects must outlive it.
   Reloads(const RunArguments& arguments, std::filesystem::path folder, const lang::Diagnostics& diagnostics,
           const runtime::RunnerSettings& settings, Recorders& recorders);
   ~Reloads();

@@ -56,7 +56,7 @@ int index_of(const runtime::LogContext& context, const std::string& file) {
   return -1;
 }
 
-/// What `zwang run` said of these files before the run began. They are read in the order of the log.
+/// The diagnostics of `zwang run` about these files before the run. They are read in the order of the log.
 ordered_json warnings_of(const lang::Diagnostics& diagnostics) {
   ordered_json warnings = ordered_json::array();
   for (const lang::Diagnostic& d : diagnostics.sorted()) {

@@ -37,8 +37,8 @@ ordered_json json_of(const std::vector<solver::Vector3>& polygon) {
   return corners;
 }
 
-/// The homogeneous box with the body's mass, centre of mass and principal inertias: of its sides a, b, c and
-/// the moments I about them, a^2 = 6 (I_b + I_c - I_a) / m.
+/// The homogeneous box with the body's mass, centre of mass and principal inertias. Its sides a, b, c follow
+/// from the moments I about them: a^2 = 6 (I_b + I_c - I_a) / m.
 ordered_json box_of(const solver::RigidInertia& inertia) {
   const solver::Vector3 centre = inertia.first_moment / inertia.mass;
   const solver::Matrix3 shift = solver::skew(centre);

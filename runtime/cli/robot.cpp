@@ -1,4 +1,4 @@
-// What a robot is and can do, from its robot file or its bare URDF.
+// The description and the abilities of a robot, from its robot file or its bare URDF.
 #include "zwang/lang/robot.hpp"
 
 #include <algorithm>
@@ -185,7 +185,7 @@ std::string drive_of(const solver::Model& model) {
   return text;
 }
 
-/// What tips the base over along its own x and y: ahead, back, left, right.
+/// The accelerations that tip the base over along its own x and y: ahead, back, left, right.
 std::array<double, 4> tipping_accelerations(const lang::Footing& footing) {
   using solver::Vector3;
   return {footing.tipping_acceleration(Vector3::UnitX()), footing.tipping_acceleration(-Vector3::UnitX()),

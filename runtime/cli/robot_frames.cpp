@@ -1,5 +1,5 @@
-// Where the frames of a robot sit and point. A force at a frame, `estimated.FRAME.x`, counts along its axes,
-// and a URDF turns the frames of an arm as its joints need it: the x axis of a tool may point to the left.
+// The places and directions of a robot's frames. A force at a frame, `estimated.FRAME.x`, counts along its
+// axes. A URDF turns the frames of an arm as its joints need it: the x axis of a tool may point to the left.
 #include "robot_frames.hpp"
 
 #include <algorithm>

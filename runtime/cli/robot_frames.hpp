@@ -13,7 +13,7 @@ struct SeenFrame {
   solver::Pose pose;  ///< in the base, at the start
 };
 
-/// Those that tasks move or measure at.
+/// The frames that tasks move or measure at.
 std::vector<SeenFrame> frames_at_start(const lang::Robot& robot);
 /// A line for each; empty without any.
 std::string frames_text(const lang::Robot& robot);

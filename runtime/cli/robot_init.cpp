@@ -1,5 +1,4 @@
-// A first robot file from a URDF, or the same again for one that is there; and a task with its scene beside
-// it.
+// Writes a first robot file from a URDF, or an existing one again, and a task with its scene beside it.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>

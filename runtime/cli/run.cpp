@@ -98,7 +98,7 @@ Recorders start_logs(const RunArguments& arguments, const lang::Program& program
   return recorders;
 }
 
-/// Writes what each log ends with, and closes it. What the live view shows at the end.
+/// Writes the conclusion of each log, and closes it. Returns the text that the live view shows at the end.
 std::string end_logs(const Recorders& recorders, runtime::ScenePlant& plant, const runtime::Runner& runner,
                      const RunReport& report, const lang::Diagnostics& of_files) {
   const std::size_t partner_logs = plant.partners().size();

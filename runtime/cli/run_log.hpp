@@ -15,7 +15,7 @@ namespace zwang::cli {
 
 using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
 
-/// What a log calls the text of the option `-p`, which facts tell.
+/// A log's name for the text of the option `-p`, which is among its facts.
 constexpr const char* from_command_line = "-p";
 
 /// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.

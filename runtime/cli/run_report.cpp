@@ -25,7 +25,7 @@ std::string seconds(double time) {
   return with_unit(time, "s", 4);
 }
 
-/// What would have switched too on that tick, in the words of the task file.
+/// The other exits that would have fired on that tick, in the words of the task file.
 std::vector<std::string> also_true(const runtime::Scheduler& scheduler, const Transition& t) {
   std::vector<std::string> all;
   const auto add = [&](int owner, std::uint64_t bits) {
@@ -68,7 +68,7 @@ std::string events_table(const runtime::Runner& runner) {
   return text + "\n";
 }
 
-/// Those that were broken before the others, each in the order of the files.
+/// The broken limits before the others, each in the order of the files.
 std::vector<LimitReport> broken_first(std::vector<LimitReport> limits) {
   std::stable_partition(limits.begin(), limits.end(), [](const LimitReport& l) { return l.is_broken(); });
   return limits;
@@ -229,8 +229,8 @@ namespace {
 
 constexpr double told_way = 0.01;  // [m] that an object is pushed away: what an eye sees
 
-/// What the base met, and what came of it. Of a run that is done an object that was pushed is where it should
-/// be.
+/// The objects that the base met, and the result. After a run that is done, a pushed object is where it
+/// should be, so its way is not reported.
 std::string met(const RunReport& report) {
   std::string text;
   for (const ObjectReport& o : report.objects) {

@@ -1,4 +1,4 @@
-/// What a run says: while it goes, and when it is over.
+/// The report of a run: during it and after it.
 #pragma once
 
 #include <map>

@@ -24,7 +24,7 @@ void refuse_overrides(const RunArguments& arguments, const std::string& whose) {
                      "--watch, it takes none");
 }
 
-/// What a cell says in the place of the task file's own words.
+/// Replaces statements of the task file by those of a cell.
 void take_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell, RunArguments& arguments) {
   arguments.file = scenario.task.string();
   if (cell.robot) arguments.overrides.robot = cell.robot->string();
@@ -56,7 +56,7 @@ RunArguments with_study(RunArguments arguments, lang::Diagnostics& diagnostics) 
       arguments.file, number, drawn.cell().faults, {}, drawn.scenario.blend, drawn.scenario.time_limit,
       study};
   take_cell(drawn.scenario, drawn.cell(), arguments);
-  // What the draws make of the simulated robot is known with its task.
+  // The effect of the draws on the simulated robot is known with its task.
   lang::Diagnostics of_study, of_task;
   if (lang::load_run(*study, drawn, of_study, of_task)) {
     arguments.choice->deviation = drawn.cell().deviation;

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// A file of a folder. What is none of zwang's is named: it may have been meant as a scenario.
+/// A file of a folder. A file of an unknown kind is named: it may have been meant as a scenario.
 bool is_scenario_or_passed_over(const std::string& path) {
   const std::optional<FileKind> kind = kind_of_file(path);
   if (!kind) print_error("zwang: " + path + " is passed over: its first key is none of zwang's\n");

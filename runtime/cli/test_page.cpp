@@ -37,7 +37,7 @@ struct Place {
   std::size_t report = 0, cell = 0;
 };
 
-/// Those that failed come first; within both halves the least margin.
+/// Failed cells come first; within both halves the least margin does.
 std::vector<Place> worst_first(const std::vector<ScenarioReport>& reports) {
   std::vector<Place> places;
   for (std::size_t r = 0; r < reports.size(); ++r) {

@@ -31,7 +31,7 @@ std::string percent(double share) {
   return number(100.0 * share, 1) + " %";
 }
 
-/// `0.0031 N, `: the figure that a margin is of. What is small is written with its power of ten.
+/// `0.0031 N, `: the figure behind a margin. Small figures are written with their power of ten.
 std::string value_text(const ExpectationResult& result) {
   if (!result.value) return {};
   const double size = std::abs(*result.value);
@@ -138,7 +138,7 @@ std::string hardest_motor(const std::vector<ScenarioReport>& reports) {
          most->name + ")\n";
 }
 
-/// What a continuous integration shows of it: the first expectation that was missed.
+/// The text for a continuous integration: the first expectation that was missed.
 std::string failure_of(const CellResult& cell) {
   for (const ExpectationResult& result : cell.expectations) {
     const std::string why = cell.why.empty() ? "" : ": " + cell.why;

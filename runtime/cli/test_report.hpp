@@ -1,4 +1,4 @@
-/// What `zwang test` says of the scenarios that it ran.
+/// The report of `zwang test` about the scenarios that it ran.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace zwang::cli {
 
-/// What a picture of a run shows beside the way of its base.
+/// The parts of a run's picture beside the way of its base.
 struct CellScene {
   std::vector<solver::Vector3> footprint;  ///< [m] in the base
   std::vector<lang::SceneObject> objects;

@@ -1,4 +1,4 @@
-/// What the plant measured while a run went on: forces at objects, and which of them are hits.
+/// The plant's true values during a run: forces at objects, and which of them are hits.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace zwang::cli {
 
-/// What the plant measured at one object.
+/// The plant's true values at one object.
 struct ObjectReport {
   std::string name;
   std::optional<double> touched;       ///< [s]

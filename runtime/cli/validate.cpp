@@ -66,7 +66,7 @@ std::vector<std::string> files_of(const ValidateArguments& arguments, lang::Open
   return files;
 }
 
-/// What is none of zwang's is read as a task file, whose reader says what is wrong.
+/// A file of an unknown kind is read as a task file, whose reader names the error.
 FileKind kind_of(const std::string& path) {
   return kind_of_file(path).value_or(FileKind::task);
 }

@@ -1,4 +1,4 @@
-/// What the program can do, one function and one file a verb. Each returns the exit code.
+/// The verbs of the program, one function and one file each. Each returns the exit code.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ enum class Format { human, json };
 /// How what was found is written: for people, one line each, or for programs.
 enum class ReportFormat { human, one_line, json, sarif };
 
-/// What stands in the place of a task file's own words.
+/// The replacements of a task file's own statements.
 struct TaskOverrides {
   std::optional<std::string> robot, scene;
   std::map<std::string, std::string> parameters;  ///< name -> quantity as text

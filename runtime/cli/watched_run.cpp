@@ -71,7 +71,7 @@ bool WatchedRun::tick(const runtime::Sensed& sensed) {
   runtime::Runner& runner = parts_.runner;
   LiveView* view = parts_.view;
   runtime::put_truth(parts_.plant.truth(), *parts_.program.scene, truth_);
-  // Who has asked for the end does not wait for the pace of real time.
+  // After a request to end, the run does not wait for the pace of real time.
   if (parts_.reloads != nullptr && !give_up_) parts_.reloads->look(runner, sensed.time);
   if (view != nullptr && !give_up_)
     view->wait_for_tick(runner, parts_.plant.truth().time, parts_.interrupted);

@@ -1,4 +1,4 @@
-/// What `zwang run` does beside the simulated robot: stops on request, live view, reloads, report.
+/// The work of `zwang run` beside the simulated robot: stops on request, live view, reloads, report.
 #pragma once
 
 #include <atomic>

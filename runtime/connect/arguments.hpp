@@ -1,4 +1,4 @@
-/// What `zwang drive` and `zwang simulate` hand to the programs that do it.
+/// The arguments of `zwang drive` and `zwang simulate` for the programs behind them.
 #pragma once
 
 #include <cstdint>

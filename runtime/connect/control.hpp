@@ -50,7 +50,8 @@ class Control {
     elapsed_.store(elapsed, std::memory_order_relaxed);
     progress_.store(progress, std::memory_order_relaxed);
   }
-  /// The same of where the base is, for `publish` of the connection file. `stamp` [s]
+  /// Notes the state of the base at `stamp` [s], for `publish` of the connection file. Of the control thread:
+  /// neither waits nor allocates.
   void note_base(double stamp, const solver::State& state) noexcept {
     if (base_teller_) base_teller_->note(stamp, state);
   }

@@ -29,7 +29,7 @@ class Writer {
   virtual int readers() const noexcept = 0;  ///< that have found this topic
 };
 
-/// What a subscriber that comes late gets of a topic.
+/// The samples of a topic that a late subscriber gets.
 enum class Late { gets_nothing, gets_last };
 
 class Participant {

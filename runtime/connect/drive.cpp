@@ -33,8 +33,8 @@ std::optional<std::string> what_is_missing(const lang::Connection& connection, c
   return std::nullopt;
 }
 
-/// A signal's publisher may be found later than that of the joints, and the first task may require it. One
-/// that is silent for so long is unknown: a switch may speak only when it is pressed.
+/// A signal's publisher may be found later than that of the joints, and the first task may require it. A
+/// signal that is silent for so long is unknown: a switch may speak only when it is pressed.
 void wait_for_signals(Inbox& inbox, runtime::Sensed& sensed) {
   constexpr double longest = 1.0;  // [s]
   for (const double until = now() + longest; !inbox.has_signals() && now() < until && !cli::is_interrupted();

@@ -90,7 +90,7 @@ class Loop {
       sleep_until(due_);
       return true;
     }
-    // What is told comes in steps: one that falls short by rounding is due.
+    // The robot's clock comes in steps: a tick that falls short by rounding is due.
     while (clock.time() < due_ - told_rounding * period_) {
       if (clock.stands(now()) || cli::is_interrupted()) {
         sleep_until(now() + period_);  // the stop takes its time, though its clock does not

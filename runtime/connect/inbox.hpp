@@ -1,4 +1,4 @@
-/// What the robot tells: topics decoded on the threads of DDS, read by the control thread.
+/// The messages from the robot: topics decoded on the threads of DDS, read by the control thread.
 #pragma once
 
 #include <semaphore.h>
@@ -60,7 +60,7 @@ class Inbox {
   /// caller's.
   void fill(runtime::Sensed& sensed) noexcept;
 
-  /// What the robot's stamps go by.
+  /// The clock of the robot's stamps.
   const RobotClock& clock() const noexcept;
   /// [s] by that clock, for how long no sample of the joints has come.
   double silence() const noexcept;

@@ -13,7 +13,7 @@ class Mailbox {
   /// All copies are as `first`: a put and a take need no memory where its assignment needs none.
   explicit Mailbox(const Value& first = {}) : copies_{first, first, first} {}
 
-  /// What the next `put` will hand over; it may hold any older value.
+  /// The value that the next `put` will hand over; it may hold any older value.
   Value& draft() noexcept { return copies_[writing_]; }
   void put() noexcept { writing_ = middle_.exchange(writing_ | is_new, std::memory_order_acq_rel) & index; }
 

@@ -53,7 +53,7 @@ void Outbox::send_outputs(std::span<const double> values) noexcept {
     const double value = values[*output.index];
     output.type == lang::MessageType::float64 ? encode(Float64{value}, bytes_)
                                               : encode(Bool{value > 0.5}, bytes_);
-    // What could not be handed over is sent with the next tick.
+    // A value that could not be handed over is sent with the next tick.
     if (output.writer->write(bytes_)) output.last = value;
   }
 }

@@ -1,4 +1,4 @@
-/// What the robot is told.
+/// The messages to the robot.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ class Outbox {
 
   /// One message; false where it could not be handed over within a millisecond.
   bool send(const runtime::Command& command, double stamp) noexcept;
-  /// The program's outputs, in its order: each when it changes, and the first time. Who comes later gets the
-  /// last.
+  /// The program's outputs, in its order: each when it changes, and the first time. A late subscriber gets
+  /// the last value.
   void send_outputs(std::span<const double> values) noexcept;
   /// The last word to the motors: zeros, five times within 50 ms. By a writer of its own, so that a thread
   /// that hangs in `send` cannot keep it back.

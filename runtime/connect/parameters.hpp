@@ -22,8 +22,8 @@ class ParameterServer {
 
   /// From now on it speaks of the parameters of this program, as they stand in it.
   void serve_for(const lang::Program& program);
-  /// What somebody has set since the last call, one parameter a call. Of the control thread: it neither waits
-  /// nor allocates.
+  /// The changes by a person since the last call, one parameter a call. Of the control thread: it neither
+  /// waits nor allocates.
   std::optional<Change> take_change() noexcept;
 
   // Services of rcl_interfaces, each between a request's fields and the reply.

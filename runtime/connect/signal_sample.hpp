@@ -1,4 +1,4 @@
-/// What a message says of a signal.
+/// A signal's sample from a message.
 #pragma once
 
 #include <optional>

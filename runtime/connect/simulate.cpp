@@ -81,7 +81,7 @@ void wait_for_command(RobotSide& side, World& world, double period, Happenings& 
 }
 
 /// With a clock of its own the world stands while a command is due, so that a busy machine is slow and not
-/// late. Who says nothing for `longest_wait` is waited for no more until he speaks again.
+/// late. A controller that is silent for `longest_wait` is not waited for until its next command.
 class InStep {
  public:
   InStep(const lang::Connection& connection, double period)

@@ -39,7 +39,7 @@ std::vector<lang::NamePlace> names_of_tasks_in(const std::filesystem::path& file
   return names;
 }
 
-/// As the asked file would name them. Those below its folder come first.
+/// The files as the asked file would name them. Files below its folder come first.
 std::vector<lang::KnownFile> files_to_name(const Asked& asked) {
   std::vector<lang::KnownFile> files;
   for (const auto& [path, kind] : asked.workspace.files_around(asked.file)) {

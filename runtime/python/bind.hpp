@@ -9,7 +9,7 @@
 
 namespace zwang::python {
 
-/// What `zwang.Error` carries: every diagnostic of a file that cannot be run.
+/// The content of `zwang.Error`: every diagnostic of a file that cannot be run.
 struct LoadError : std::runtime_error {
   explicit LoadError(lang::Diagnostics given);
   lang::Diagnostics diagnostics;

@@ -19,7 +19,7 @@ namespace {
 
 using runtime::PlantStatus;
 
-/// What the plant measured, by the names of scenarios.
+/// The plant's true values, by the names of scenarios.
 using Truths = std::map<std::string, std::optional<double>>;
 
 Truths truths_of(const runtime::Truth& truth) {

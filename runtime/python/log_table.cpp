@@ -54,7 +54,7 @@ std::set<std::string> words_of(const std::string& name) {
   return words;
 }
 
-/// What may be meant: a name that is misspelt, else the names that share the most words.
+/// The names that may be meant: a close spelling, else the names that share the most words.
 std::string like(const std::string& name, const std::vector<runtime::Column>& columns) {
   constexpr std::size_t most_told = 5;
   const std::set<std::string> wanted = words_of(name);

@@ -1,4 +1,4 @@
-/// What `zwang.load` gives: a program with the texts that it was read from, which a log keeps.
+/// The result of `zwang.load`: a program with the texts that it was read from, which a log keeps.
 #pragma once
 
 #include <map>

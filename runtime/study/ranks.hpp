@@ -11,7 +11,7 @@
 
 namespace zwang::study {
 
-/// What the processes of a job say to each other. From each of them texts come whole, and in order.
+/// The messages between the processes of a job. The texts of each process arrive whole, and in order.
 class Messages {
  public:
   struct Message {

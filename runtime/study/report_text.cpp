@@ -36,7 +36,8 @@ std::string wanted_text(const lang::Claim& claim) {
          short_number(100.0 * claim.confidence) + " %";
 }
 
-/// What chance makes of as many cells is larger twice in a hundred thousand studies.
+/// The bound of a correlation by chance for as many cells: chance exceeds it twice in a hundred thousand
+/// studies.
 double most_by_chance(const ClaimReport& claim) {
   return 4.0 / std::sqrt(std::max<double>(1.0, static_cast<double>(claim.runs) - 1.0));
 }

@@ -32,7 +32,7 @@ void takes(CLI::Option* option, const std::map<std::string, Value>& words) {
 }
 
 void add_format(CLI::App& verb, Format& format);
-/// What every verb that reads a task file may put in the place of its words.
+/// The options by which a verb that reads a task file may replace its statements.
 void add_overrides(CLI::App& verb, TaskOverrides& overrides);
 /// The option `--log-rotate`.
 CLI::Option* add_log_limits(CLI::App& verb, std::optional<double>& rate, std::vector<std::string>& rotation);

@@ -1,4 +1,4 @@
-// What is asked of files: nothing moves.
+// The verbs that read files; they move nothing.
 #include <memory>
 
 #include "command_line/command_line.hpp"

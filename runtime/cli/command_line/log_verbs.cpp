@@ -1,4 +1,4 @@
-// What is asked of the log of a run.
+// The verbs that read the log of a run.
 #include <memory>
 
 #include "command_line/command_line.hpp"

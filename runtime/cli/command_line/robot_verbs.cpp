@@ -1,4 +1,4 @@
-// What is asked of robots, in files and on wires.
+// The verbs about robots, in files and on wires.
 #include <memory>
 
 #include "command_line/command_line.hpp"

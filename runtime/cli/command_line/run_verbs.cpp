@@ -1,4 +1,4 @@
-// What runs tasks in the simulation.
+// The verbs that run tasks in the simulation.
 #include <memory>
 
 #include "argument_text.hpp"

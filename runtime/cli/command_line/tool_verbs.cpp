@@ -1,4 +1,4 @@
-// What helps around the files: the machine, editors, shells.
+// The verbs around the files: the machine, editors, shells.
 #include <memory>
 
 #include "command_line/command_line.hpp"
