@@ -1,5 +1,5 @@
-/// The words of the command line have a meaning. Each function throws Impossible where it is none of what is
-/// asked for.
+/// The meanings of the words of the command line. Each function throws Impossible for a word that is not
+/// allowed there.
 #pragma once
 
 #include <array>

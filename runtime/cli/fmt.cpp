@@ -27,8 +27,7 @@ std::string bytes_of(const std::string& path) {
   return text.str();
 }
 
-/// Writes a new file beside the old one and puts it in its place: whoever reads meanwhile sees one or the
-/// other.
+/// Writes a new file beside the old one and puts it in its place: a reader meanwhile sees one or the other.
 void replace_file(const std::string& path, const std::string& text) {
   const fs::path target = fs::canonical(path);  // a link stays a link
   std::string beside = (target.parent_path() / (".zwang_fmt_XXXXXX")).string();

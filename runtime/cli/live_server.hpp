@@ -11,13 +11,13 @@ namespace zwang::cli {
 struct LiveServerBounds {
   std::size_t messages = 4096;     ///< that are kept for a page that opens late or is slow
   std::size_t bytes = 32'000'000;  ///< of them
-  std::size_t requests = 64;       ///< of pages that nobody has taken yet; more are dropped
+  std::size_t requests = 64;       ///< of pages, not yet taken by the run; more are dropped
 };
 
 /// Listens on 127.0.0.1 alone, on a thread of its own. A random token is part of the address. A connection is
-/// refused if the token is missing, if its `Host` is another one, or if the page that opens the stream came
-/// from elsewhere. Messages wait in a ring: a page that does not keep up misses the oldest ones, and nobody
-/// waits for it. All functions may be called from any thread.
+/// refused if the token is missing or its `Host` is another one. It is refused, too, if the page that opens
+/// the stream came from elsewhere. Messages wait in a ring: a page that does not keep up misses the oldest
+/// ones, and the run does not wait for it. All functions may be called from any thread.
 class LiveServer {
  public:
   /// `port` 0: any free one. Throws Impossible where it cannot listen.

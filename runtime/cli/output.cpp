@@ -32,14 +32,14 @@ void write(std::string_view bytes) {
 constexpr std::size_t unknown_width = 80;
 constexpr std::size_t room_for_interrupt = 3;  // an echoed `^C` stays in the line, too
 
-/// What `print_over` has written last. Threads of runs and of reloads print while it stands there.
+/// The last line that `print_over` wrote. Threads of runs and of reloads print while it stands there.
 struct LineInPlace {
   std::mutex mutex;
   std::size_t columns = 0;
 };
 LineInPlace line_in_place;
 
-/// Of the window as it is now. Somebody may have changed it since the last line.
+/// The present width of the window, which may have changed since the last line.
 std::size_t terminal_columns() {
   winsize size{};
   const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
@@ -55,7 +55,7 @@ std::string cut_to(std::string text, std::size_t columns) {
   return text;
 }
 
-/// To the begin of the line in place. A terminal that became narrower has wrapped it: the begin is above.
+/// Moves to the start of the line in place. A narrower terminal has wrapped it: its start is above.
 std::string way_to_its_begin(std::size_t columns, std::size_t width) {
   const std::size_t rows_above = columns > 0 ? (columns - 1) / width : 0;
   return rows_above == 0 ? "\r" : "\r\033[" + std::to_string(rows_above) + "A";

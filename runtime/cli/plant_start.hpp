@@ -1,4 +1,4 @@
-/// The simulated plant of a file, or the diagnostic that says why there is none: `validate` asks what `run`
+/// The simulated plant of a file, or the diagnostic of its failure. `validate` checks the plant that `run`
 /// will need.
 #pragma once
 

@@ -34,12 +34,12 @@ class Reloads {
   void end();
   /// Of the program that runs now.
   const lang::Diagnostics& diagnostics() const { return past_.empty() ? first_ : past_.back()->diagnostics; }
-  /// Those that ran before it.
+  /// The programs that ran before it.
   std::vector<Chapter> before() const;
   /// Its logs, beside the first.
   const std::vector<std::string>& logs() const { return logs_; }
 
-  /// Between two ticks. Keeps the run at the pace of real time, too, so that somebody can watch it.
+  /// Between two ticks. Keeps the run at the pace of real time, too, so that a person can watch it.
   void look(runtime::Runner& runner, double time);
 
  private:

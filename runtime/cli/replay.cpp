@@ -94,7 +94,7 @@ int replay(const ReplayArguments& arguments) {
   const fs::path file = runtime::log_files(arguments.file).back();
   const runtime::LogContents log = contents_of(file);
   std::vector<runtime::ReplayPart> parts{{file, program_of(log.context)}};
-  // A log that goes on where another one ends, and so on back to the begin of the run.
+  // A log may continue another one. Each one is followed back to the start of the run.
   bool is_part = log.context.facts.contains(runtime::part_fact);
   for (std::optional<fs::path> before = log_before(file, log.context); before;) {
     if (parts.size() > most_parts) throw Impossible("its logs go on from one another without a begin");

@@ -45,7 +45,7 @@ Shard shard_of(const std::optional<std::string>& text) {
   return {number - 1, of};
 }
 
-/// FNV-1a, of 64 bits: files are told apart, and nobody forges them.
+/// FNV-1a, of 64 bits: it tells files apart, but is no protection against forgery.
 class Fingerprint {
  public:
   void add(std::string_view text) {
@@ -62,7 +62,7 @@ class Fingerprint {
   std::uint64_t hash_ = 0xcbf29ce484222325U;
 };
 
-/// Of all texts that the study and its first cell are read from, and of the program.
+/// The fingerprint of the program and of all texts of the study and its first cell.
 std::string fingerprint_of(const lang::Study& study) {
   Fingerprint print;
   print.add(ZWANG_VERSION);
@@ -153,7 +153,7 @@ std::vector<std::size_t> cells_to_run(std::size_t runs, const Shard& shard,
 }
 
 study::WorkSettings settings_of(const SweepArguments& arguments, bool is_in_a_job) {
-  // Whoever starts a job says how many processes there are.
+  // The starter of a job sets the number of its processes.
   const std::size_t cores = is_in_a_job ? 1U : std::max(1U, std::thread::hardware_concurrency());
   return {arguments.jobs > 0 ? static_cast<std::size_t>(arguments.jobs) : cores, arguments.cell_limit};
 }

@@ -53,8 +53,8 @@ std::vector<Line> lines_of(const std::vector<solver::Row>& rows) {
   return lines;
 }
 
-/// The most that the rows in force let the robot press on an object with as it did at the peak. A row of the
-/// link that touches counts whatever its direction: nobody knows how that link stands. [N]
+/// The largest force on an object that the rows in force allow, in the direction of the peak. A row of the
+/// link that touches counts whatever its direction: the pose of that link is unknown. [N]
 std::optional<double> allowed_force(const solver::ConstraintSet& set, const runtime::ObjectTruth& object,
                                     double yaw) {
   const Eigen::Vector3d n = Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()) * object.peak_push.normalized();

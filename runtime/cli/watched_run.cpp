@@ -42,8 +42,8 @@ WatchedRun::WatchedRun(const Parts& parts, bool with_watchdog)
       watch_(parts.plant.truth(), parts.program, runtime::SimulationSteps(parts.runner.period()).period()) {
   if (parts.view != nullptr) by_hand_.emplace(parts.program);
   truth_.resize(true_values_ + (by_hand_ ? by_hand_->columns().size() : 0));
-  // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step. Only on
-  // request, as the pace of the machine must not decide how a simulated run ends.
+  // The simulated robot waits between its steps, so the next step is soon enough to see the stop. The
+  // watchdog is only on request: the pace of the machine must not decide how a simulated run ends.
   if (with_watchdog) watchdog_.emplace(blocked_for, nullptr);
 }
 

@@ -60,7 +60,7 @@ class RunTaskServer {
   // The side that drives.
   /// An accepted goal, which is `executing` from now on; it is to be finished.
   std::optional<RunTaskGoal> take_goal();
-  /// Somebody has asked for the end of the goal that is driven. Neither locks nor waits.
+  /// A client has asked for the end of the goal that is driven. Neither locks nor waits.
   bool wants_cancel() const noexcept { return wants_cancel_; }
   /// `result.outcome` says which status the goal ends with.
   void finish(const RunTaskResult& result);

@@ -37,7 +37,7 @@ class Control {
 
   bool wants_start() const noexcept { return wants_start_; }
   bool wants_stop() const noexcept { return wants_stop_; }
-  /// Somebody has cancelled the goal that is driven.
+  /// A client has cancelled the goal that is driven.
   bool wants_cancel() const noexcept { return goals_ != nullptr && goals_->wants_cancel(); }
 
   void enter(Phase phase) noexcept { phase_ = phase; }

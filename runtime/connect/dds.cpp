@@ -283,7 +283,7 @@ class Service : public dds::DataReaderListener {
   Neighbours& neighbours_;
   MatchListener matches_;
   dds::DataWriter* writer_ = nullptr;
-  std::shared_ptr<WorkQueue<Item>> queue_;  ///< whoever holds a reply holds it, too
+  std::shared_ptr<WorkQueue<Item>> queue_;  ///< the holder of a reply holds it, too
   std::thread thread_;
 };
 
@@ -309,7 +309,7 @@ dds::DomainParticipantQos participant_qos(const lang::Connection& connection, co
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   if (reach == lang::Reach::loopback) udp->interfaceWhiteList = {"127.0.0.1"};
   if (!connection.interfaces.empty()) udp->interfaceWhiteList = addresses_of(connection.interfaces);
-  // Nobody outside hears that this process is there.
+  // No other computer hears of this process.
   if (reach != lang::Reach::network) udp->TTL = 0;
   qos.transport().user_transports.push_back(udp);
   return qos;

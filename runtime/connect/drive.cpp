@@ -42,7 +42,7 @@ void wait_for_signals(Inbox& inbox, runtime::Sensed& sensed) {
     inbox.fill(sensed);
 }
 
-/// Until samples come and somebody listens. Says what is missing where it gives up.
+/// Waits for samples and for a reader of the commands. Reports the missing part when it gives up.
 bool wait_for_robot(const lang::Connection& connection, const lang::Drive& drive, Inbox& inbox,
                     const Outbox& outbox, double most, runtime::Sensed& sensed) {
   const bool feels_by_effort = drive.feels.by == lang::Feels::By::effort;
@@ -61,7 +61,7 @@ bool wait_for_robot(const lang::Connection& connection, const lang::Drive& drive
   return false;
 }
 
-/// Until the service `start` is called. False: somebody ended it before.
+/// Waits for a call of the service `start`. False: the run was ended before.
 bool wait_for_start(const lang::Connection& connection, Inbox& inbox, Control& control,
                     runtime::Sensed& sensed) {
   control.enter(Phase::ready);

@@ -134,7 +134,7 @@ class Loop {
     if (!runner_.guard().stopped()) runner_.guard().stop(code, signal, value);
   }
 
-  /// By a base that is stuck nobody can brake: the wheels tell from here on.
+  /// A frozen pose of the base cannot guide the brake. The wheels' rates replace it from here on.
   void judge_base() {
     const BaseSample* base = inbox_.base();
     if (base == nullptr) return;
@@ -146,12 +146,12 @@ class Loop {
     stop(EventCode::frozen_base, runtime::event_signal::base_pose, *contradiction);
   }
 
-  /// The guard does not know this process's own clock, by which nothing may come any more. Nor does it know
-  /// that somebody asks for the end, by a signal or by the service `stop`.
+  /// The guard does not know this process's own clock, by which samples may have ended. Nor does it know a
+  /// request to end, by a signal or by the service `stop`.
   void judge() {
     if (inbox_.silence() > connection_.joints.stale_after) {
       stop(EventCode::lost_ticks);
-      // Nobody will tell that it stands.
+      // No sample will show that it stands.
       if (!give_up_) give_up_ = now() + longest_brake;
     }
     judge_base();

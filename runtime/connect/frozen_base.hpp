@@ -30,8 +30,8 @@ class FrozenBase {
   FrozenBase(const solver::Model& model, double stale_after);
 
   /// Takes the newest sample of the base and the newest positions and rates of the joints. `time` [s] is of
-  /// the clock of arrivals. Returns what the wheels tell and the base does not: a way [m], or a change of
-  /// speed [m/s]; none where all is well.
+  /// the clock of arrivals. Returns the motion that the wheels show and the base does not: a way [m], or a
+  /// change of speed [m/s]; none where all is well.
   std::optional<double> look(const BaseSample& base, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                              double time) noexcept;
 

@@ -98,7 +98,7 @@ class Goals {
     robot_.control.speak_of(first_);
     robot_.inbox.read_for(first_);
     robot_.outbox.write_for(first_);
-    // Before the goal is over: whoever hears of that may send the next one.
+    // Before the goal is over: a client that hears of its end may send the next one.
     robot_.control.enter(is_latched ? Phase::latched : Phase::ready);
     robot_.control.goals().finish(result);
   }

@@ -234,7 +234,7 @@ struct Inbox::Parts {
         });
   }
 
-  /// What presses on the robot. A wrench that is older than joints may be has not been measured.
+  /// Puts the contact force. A wrench older than the joints' `stale_after` counts as not measured.
   void put_feeling(const JointsSample& from, runtime::Sensed& sensed) {
     if (feels_by_effort()) sensed.effort = from.effort;
     has_wrench = wrench.take() || has_wrench;

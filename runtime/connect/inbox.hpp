@@ -67,11 +67,11 @@ class Inbox {
   const JointsSample& joints() const noexcept;  ///< as of the last `fill`
   /// As of the last `fill`, not carried on; nullptr where none has come, or it is distrusted.
   const BaseSample* base() const noexcept;
-  /// From now on the wheels tell how the base moves.
+  /// From now on the base's motion is reckoned from the wheels.
   void distrust_base() noexcept;
-  bool has_joints() const noexcept;   ///< every motor's joint has been told of; as of the last `fill`
-  bool has_base() const noexcept;     ///< or needs none
-  bool has_wrench() const noexcept;   ///< the same of what presses on the robot
+  bool has_joints() const noexcept;   ///< every motor's joint has come; as of the last `fill`
+  bool has_base() const noexcept;     ///< the base's pose has come, or the robot needs none
+  bool has_wrench() const noexcept;   ///< the wrench on the robot has come, or it needs none
   bool has_signals() const noexcept;  ///< each one that the program reads has come
   /// [s] when the newest sample of the joints has come, also of one that is not yet taken.
   double last_arrival() const noexcept;

@@ -1,4 +1,4 @@
-/// The clock that a robot's stamps go by: this computer's, or one that is told on a topic (`use_sim_time`).
+/// The clock that a robot's stamps go by: this computer's, or one that a topic publishes (`use_sim_time`).
 #pragma once
 
 #include <atomic>
@@ -7,10 +7,10 @@
 
 namespace zwang::connect {
 
-/// A clock that is told stands between two messages, as in every node of ROS 2. One thread tells; any reads.
+/// A published clock stands between two messages, as in every node of ROS 2. One thread writes; any reads.
 class RobotClock {
  public:
-  /// `longest_silence` [s] of this computer's clock, after which one that is told counts as standing.
+  /// `longest_silence` [s] of this computer's clock, after which a published clock counts as standing.
   RobotClock(bool is_told, double longest_silence) : is_told_(is_told), longest_silence_(longest_silence) {}
 
   void tell(double time, double arrival) noexcept {
@@ -22,9 +22,9 @@ class RobotClock {
   bool has_come() const noexcept { return !is_told_ || arrival_ > 0.0; }
   /// [s]
   double time() const noexcept { return is_told_ ? time_.load() : now(); }
-  /// [s] The same of a message that came at `arrival` [s] of `now`.
+  /// [s] The time at which a message came, `arrival` [s] of `now`.
   double time_at(double arrival) const noexcept { return is_told_ ? time_.load() : arrival; }
-  /// Nobody has told the time for too long: the simulation is paused, or it has ended. `at` [s] of `now`.
+  /// No time has come for too long: the simulation is paused, or it has ended. `at` [s] of `now`.
   bool stands(double at) const noexcept { return is_told_ && at - arrival_ > longest_silence_; }
   /// [s] For how long no sample has come at `at` [s] of `now`: the last one came at `arrival`, stamped
   /// `stamp`. A simulation may be slower than real time, so its own clock counts, as long as it runs.

@@ -30,14 +30,14 @@ class RobotSide {
   void join(Participant& participant);
   /// The writers go: before the participant does.
   void leave() noexcept;
-  /// [s] What the stamps go by: this computer's clock, or the one that `tell_time` tells.
+  /// [s] The clock of the stamps: this computer's, or the one that `tell_time` publishes.
   double time() const noexcept { return connection_.clock ? told_time_.load() : now(); }
   /// On the topic of the connection's clock, if it has one. [s]
   void tell_time(double time);
   /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
   /// `shift` is the same time less that of the sample's own clock.
   void publish(const runtime::Sensed& sensed, double stamp, double shift);
-  /// From now on the odometry tells the pose and the twist that it told last, under new stamps.
+  /// From now on the odometry repeats its last pose and twist, under new stamps.
   void hold_odometry() noexcept { holds_odometry_ = true; }
   /// The newest command, or zeros when it is older than the receiver's `timeout`; with the outputs as they
   /// were told last. `time` [s] is as `time()`.

@@ -19,7 +19,7 @@ using namespace zwang::connect;
 
 constexpr double most_behind = 0.1;     // [s] a world that is farther behind goes on from where it is
 constexpr double silent_for = 0.5;      // [s] without a command, at rest: the other side has ended
-constexpr double longest_silent = 5.0;  // [s] the same of a world that still moves
+constexpr double longest_silent = 5.0;  // [s] without a command, while the world still moves
 constexpr double at_rest = 1e-3;        // [m/s]
 constexpr double longest_wait = 0.5;    // [s] of this computer, for a command that is due
 constexpr double look_again = 0.2e-3;   // [s]
@@ -66,7 +66,7 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
   return world.plant.follow(side.command(world.sensed.time + shift));
 }
 
-/// Stands still, and says so, until somebody commands.
+/// Stands still, and says so, until a command comes.
 void wait_for_command(RobotSide& side, World& world, double period, Happenings& happenings) {
   if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
   const double begin = now();
@@ -103,7 +103,7 @@ class InStep {
  private:
   bool is_on_;
   double most_;                // [s] of the world, between two commands
-  double given_up_at_ = -1.0;  // [s] the command behind which nobody came
+  double given_up_at_ = -1.0;  // [s] the last command before the silence
 };
 
 runtime::PlantStatus run(const lang::Connection& connection, const lang::Program& program, RobotSide& side,
@@ -128,7 +128,7 @@ runtime::PlantStatus run(const lang::Connection& connection, const lang::Program
       happenings.moved_last = time;
     happenings.silent_since = side.newest().arrival - shift;
     const double silence = time - happenings.silent_since;
-    // Between two goals nobody commands.
+    // Between two goals no commands come.
     if (connection.begin == lang::Begin::goals) continue;
     if (silence > longest_silent || (silence > silent_for && time - happenings.moved_last > silent_for))
       break;

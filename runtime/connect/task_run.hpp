@@ -23,7 +23,7 @@ struct Robot {
   std::optional<std::string> named_robot;  ///< --robot
 };
 
-/// Stamps of another clock would make every sample old, or of the future. What is wrong, or nothing.
+/// Stamps of another clock would make every sample old, or of the future. Returns the error, or nothing.
 std::string clock_trouble(const lang::Connection& connection, const Inbox& inbox);
 
 /// The log of a run, where one is wanted.

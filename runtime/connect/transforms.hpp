@@ -50,8 +50,7 @@ class TransformChain {
   bool is_changed_ = false;
 };
 
-/// The pose behind position and quaternion; nullopt for a rotation that is none and numbers that are not
-/// finite.
+/// The pose behind position and quaternion; nullopt for an invalid rotation and for non-finite numbers.
 std::optional<solver::Pose> pose_of(const PoseFields& fields);
 
 }  // namespace zwang::connect

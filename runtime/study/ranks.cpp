@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const no_more = "no more";
-/// While cells run nobody is in a hurry: they take a tenth of a second and more.
+/// While cells run there is no hurry: they take a tenth of a second and more.
 constexpr double busy_look = 5e-4, idle_look = 0.1;  // [s]
 
 /// Whether a starter of parallel jobs made this process: Open MPI's mpirun, or one that speaks PMI or PMIx.

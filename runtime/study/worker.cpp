@@ -42,7 +42,7 @@ bool write_all_of(int file, const void* bytes, std::size_t size) {
   return true;
 }
 
-/// A process runs cell for cell, until it is killed or nobody listens.
+/// A process runs cell for cell, until it is killed or its reader has ended.
 [[noreturn]] void serve(int questions, int answers, const WorkCalls& calls) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::signal(SIGINT, SIG_IGN);  // of a terminal, which asks all processes: the first one ends the others

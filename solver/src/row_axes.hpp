@@ -1,4 +1,4 @@
-/// Rows that act along the same axis, and rows that are none.
+/// Rows that act along the same axis, and rows with invalid numbers.
 #pragma once
 
 #include "linear/pairs.hpp"
@@ -22,7 +22,7 @@ inline double key_of(const Row& row) {
   return sum[0] + sum[1];
 }
 
-/// Whatever its axis is.
+/// Whether its numbers are valid, whatever its axis is.
 inline bool has_valid_numbers(const Row& row) {
   return row.b * 0.0 + row.force * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
          row.hi >= 0.0;  // false for NaN, too

@@ -268,7 +268,7 @@ struct Solver::Workspace {
   std::vector<double> keys;      ///< of these
   std::size_t axis_count = 0;
   Eigen::VectorXd ground_bias;        ///< by row of the ground
-  Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
+  Eigen::VectorXd free_acceleration;  ///< by row of the task: on the ground, without constraint forces
   Eigen::VectorXd motion;             ///< by dimension of the sweeps
   Eigen::VectorXd p, tau;             ///< of all sets, by their shares
   std::vector<RowSolution> row_solutions;

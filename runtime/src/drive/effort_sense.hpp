@@ -1,4 +1,4 @@
-/// The force on the base, by the torques that the wheels' motors tell.
+/// The force on the base, from the measured torques of the wheels' motors.
 #pragma once
 
 #include <Eigen/Core>

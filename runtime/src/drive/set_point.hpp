@@ -1,4 +1,4 @@
-/// The velocities that a drive is told.
+/// The velocity commands to a drive.
 #pragma once
 
 #include <Eigen/Core>

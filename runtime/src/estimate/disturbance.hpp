@@ -48,7 +48,7 @@ class DisturbanceObserver {
   /// p of the last comparisons, their mean over `window()` of them; `motions().count` entries.
   const Eigen::VectorXd& force() const noexcept { return p_; }
   const solver::FreeMotions& motions() const noexcept { return motions_; }
-  /// The same mean of what the motors were told [N m] or [N].
+  /// The mean of the motors' commands over the same window [N m] or [N].
   const Eigen::VectorXd& torque() const noexcept { return torque_; }
   int window() const noexcept { return window_; }
 

@@ -49,7 +49,7 @@ class FrictionEstimate {
   void update(const Eigen::VectorXd& qd, const Eigen::VectorXd& press) noexcept;
   /// f by joint, against the motion [N m] or [N].
   const Eigen::VectorXd& torque() const noexcept { return torque_; }
-  /// The part of it that is made up for.
+  /// The part of it that is compensated.
   void compensate(Eigen::VectorXd& tau) const noexcept;
 
   static constexpr double turn_taper = 0.2;    ///< [rad/s]

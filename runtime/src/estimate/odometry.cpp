@@ -88,7 +88,7 @@ const Odometry::Past* Odometry::at(double stamp) const noexcept {
 }
 
 /// The measurement says by which motion E of the world's frame the reckoning was off at the stamp. A part of
-/// E is made good now: 1 - exp(-dt/T), with the time dt since the last measurement.
+/// E is corrected now: 1 - exp(-dt/T), with the time dt since the last measurement.
 ///   X_WB := E^part X_WB,   E = X_measured X_then^-1
 bool Odometry::correct(double stamp, const Pose& measured) noexcept {
   if (!std::isfinite(stamp) || !is_sound(measured)) return false;

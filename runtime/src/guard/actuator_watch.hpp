@@ -1,4 +1,4 @@
-/// Finds wheels whose motor does not do what it is told.
+/// Finds wheels whose motor does not follow its command.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ class ActuatorWatch {
   std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q,
                             const ContactDepth& contact) noexcept;
 
-  static constexpr double entry = 0.03;       ///< [s] from the begin of a force to the suspicion
+  static constexpr double entry = 0.03;       ///< [s] from the onset of a force to the suspicion
   static constexpr double dwell = 0.04;       ///< [s] that a suspicion must last
   static constexpr double most_told = 2.5;    ///< of the command: more than any fault makes of it
   static constexpr double left_behind = 2.0;  ///< times what is claimed: a hit that is over was harder
@@ -68,7 +68,7 @@ class ActuatorWatch {
   static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:
-  /// That a motor has one kind of fault.
+  /// The suspicion that a motor has one kind of fault.
   struct Claim {
     int ticks = 0;                     ///< that it has held
     int along_ticks = 0;               ///< that the force has had its direction, whatever its size

@@ -60,9 +60,9 @@ class BlindBudget {
   static constexpr double least_budget = lang::least_blind_way;  ///< [m]
   static constexpr double steps = lang::blind_steps;             ///< of the encoder, at the rim
   static constexpr double least_change = 1e-7;    ///< [rad] of a position: an encoder of 25 bits counts 2e-7
-  static constexpr double slowest = 0.01;         ///< [m/s] at a rim: rolling on at that harms nobody
+  static constexpr double slowest = 0.01;         ///< [m/s] at a rim: rolling on at that does no harm
   static constexpr double rate_low_pass = 0.005;  ///< [s]
-  static constexpr double look_below = 0.05;      ///< [m/s] at a rim: above it nobody waits for long
+  static constexpr double look_below = 0.05;      ///< [m/s] at a rim: above it the wait is short
   static constexpr double ridden_through = 0.02;  ///< [s] of a look at such a speed, as of lost samples
   static constexpr double least_look = 0.1e-3;    ///< [m] of the way that is given back
   static constexpr double quickest_look = 0.005;  ///< [s] in which it is given back, e-fold

@@ -1,4 +1,4 @@
-/// How the base moves by the model, while no encoder tells.
+/// The motion of the base by the model, while no encoder shows it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Tells when the samples' clock does not run as the control period says.
+/// Detects a samples' clock that does not run with the control period.
 #pragma once
 
 #include <optional>

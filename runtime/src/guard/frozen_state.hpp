@@ -1,4 +1,4 @@
-/// Tells when all encoders die at once.
+/// Detects that all encoders die at once.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Tells when the encoder of one wheel is dead.
+/// Detects a dead encoder of one wheel.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Tells when a joint's rate is not that of its position.
+/// Detects a joint's rate that is not that of its position.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Finds a motor that does not do what it is told while the robot touches something.
+/// Finds a motor that does not follow its command while the robot touches an object.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,7 +41,7 @@ class MotorBesideContact {
   static constexpr double left = 1.0 / 30.0;  ///< of N0: the most that a motor may leave
   static constexpr double visible = 0.1;      ///< of the motor's own square: the least that is off the line
   static constexpr double least_gamma = 0.4;  ///< less may be the model's error,
-  static constexpr double most_gamma = 2.4;   ///< and more than twice the command is no motor's
+  static constexpr double most_gamma = 2.4;   ///< and more than twice the command is not a motor's
   static constexpr double strict = 10.0;      ///< times as well a stuck motor has to fit
   static constexpr double near = 0.2;         ///< of gamma, to what it is for a kind of fault
   static constexpr double smallest = 0.03;    ///< torque that is missed, of the motor's limit

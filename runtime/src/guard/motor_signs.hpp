@@ -1,4 +1,4 @@
-/// Finds a base whose motors all turn the other way than they are told.
+/// Finds a base whose motors all turn against their commands.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Whether the motors do what they are told, by everything that can tell.
+/// Whether the motors follow their commands, by all checks together.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Whether a motor was seen to do what it is told.
+/// Whether a motor was seen to follow its command.
 #pragma once
 
 #include <cmath>

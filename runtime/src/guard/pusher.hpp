@@ -1,4 +1,4 @@
-/// Finds that somebody pushes the robot.
+/// Detects a person who pushes the robot.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Finds a motor that does the opposite of what it is told, by the work that it does.
+/// Finds a motor that does the opposite of its command, by the work that it does.
 #pragma once
 
 #include <Eigen/Core>

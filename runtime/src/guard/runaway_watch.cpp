@@ -19,7 +19,7 @@ double outside(double velocity, double low, double high) noexcept {
 struct Margin {
   double speed, turn;  ///< [m/s], [rad/s]
   double share;        ///< of the speed that is driven or allowed, where that is more
-  double lightness;    ///< [1/kg] of a robot that somebody pushes; 0: nobody does
+  double lightness;    ///< [1/kg] of a robot that a person pushes; 0: no push
 };
 constexpr Margin near_margin{RunawayWatch::margin, RunawayWatch::turn_margin, RunawayWatch::share, 0.0};
 
@@ -27,7 +27,7 @@ double margin_at(const AxisConstraint& c, double bound, const Margin& margin) no
   return std::max(c.is_angle() ? margin.turn : margin.speed, margin.share * std::abs(bound));
 }
 
-/// The velocity that somebody who pushes gives a driver, m (s - v)/T < F, with no more than its force F.
+/// The velocity by which a driver gives way to a push, m (s - v)/T < F, with no more than its force F.
 double given_way(const AxisConstraint& c, double velocity, const Margin& margin) noexcept {
   const double force = velocity < 0.0 ? c.driver->force.high : -c.driver->force.low;
   if (c.is_angle() || !std::isfinite(force)) return 0.0;

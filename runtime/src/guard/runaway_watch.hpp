@@ -52,20 +52,20 @@ class RunawayWatch {
   /// Low-passed: the rates whose kinetic energy `look` wants.
   const Eigen::VectorXd& rates() const noexcept { return rates_; }
   /// `force` is what the observer makes of the world's, in coordinates of free motion, and `contact` has
-  /// followed it. If somebody pushes the robot, or a row of the base yields, a base is a runaway only far
+  /// followed it. If a person pushes the robot, or a row of the base yields, a base is a runaway only far
   /// beyond its limits. The event names the motor that brakes hardest by what it is told: a wheel that drives
   /// itself has the largest share of the motion. Its value is that wheel's rate.
   std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
                             const ContactDepth& contact, bool is_pushed, bool blends = false) noexcept;
 
   static constexpr double margin = 0.01;       ///< [m/s] beyond a speed that is driven or allowed
-  static constexpr double turn_margin = 0.05;  ///< [rad/s] the same of rotations
-  static constexpr double share = 0.1;         ///< of the speed itself, where that is more
-  static constexpr double driven = 0.5;        ///< of all these, where a steady force drives
-  static constexpr double far = 0.2;          ///< [m/s] the margin beyond which it does not matter who drives
-  static constexpr double turn_far = 1.0;     ///< [rad/s] the same of rotations
-  static constexpr double share_far = 1.0;    ///< and of the speed itself
-  static constexpr double steadily = 0.15;    ///< of a force: what it may change by and be steady
+  static constexpr double turn_margin = 0.05;  ///< [rad/s] `margin` of a rotation
+  static constexpr double share = 0.1;         ///< of the bound, as the margin where that is more
+  static constexpr double driven = 0.5;        ///< of these margins, where a steady force drives
+  static constexpr double far = 0.2;          ///< [m/s] the margin beyond which the source does not matter
+  static constexpr double turn_far = 1.0;     ///< [rad/s] `far` of a rotation
+  static constexpr double share_far = 1.0;    ///< of the bound, as `far` where that is more
+  static constexpr double steadily = 0.15;    ///< of a force: the largest change of a steady one
   static constexpr double explained = 0.8;    ///< of the work done: the least that one motor has to give
   static constexpr double look_every = 0.01;  ///< [s]
   static constexpr double memory = 1.0;       ///< [s] of the largest T: longer than contacts keep energy
@@ -75,7 +75,7 @@ class RunawayWatch {
   static constexpr int remembered_looks = 100;  ///< memory / look_every
 
  private:
-  /// Somebody who does work on the robot while its motors are told to brake.
+  /// A source of work on the robot while its motors are told to brake.
   struct Driver {
     Eigen::VectorXd work;  ///< [J] by what each motor was told, since it may be at work
     double energy = 0.0;   ///< [J] T then

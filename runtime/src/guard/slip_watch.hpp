@@ -1,4 +1,4 @@
-/// Tells when wheels slide that should roll.
+/// Detects wheels that slide instead of rolling.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class SlipWatch {
   }  ///< [m/s] beyond `share`, of the worst wheel
 
   static constexpr double threshold = 0.02;      ///< [m/s]
-  static constexpr double share = 0.1;           ///< and of the wheel's own speed at its rim
+  static constexpr double share = 0.1;           ///< of the rim's speed, added to the threshold
   static constexpr double time_constant = 0.05;  ///< [s]
 
  private:

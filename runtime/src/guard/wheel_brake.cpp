@@ -101,7 +101,7 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   if (sense_ == 0.0 && left_out_ == all() && !has_tried_all()) leave_out_the_next();
 }
 
-/// Turned around it drove the base: it does what it is told.
+/// The reversed torque drove the base: the motor obeys its command.
 void WheelBrake::brake_with_the_suspect() noexcept {
   is_suspected_only_ = false;
   left_out_ = -1;

@@ -14,7 +14,7 @@ namespace zwang::runtime {
 struct WheelMotor {
   int joint = 0;
   double radius = 0.0;     ///< [m] of its wheel
-  double threshold = 0.0;  ///< [N m] the least torque that tells something of the motor
+  double threshold = 0.0;  ///< [N m] the least torque that shows the motor's state
 };
 
 /// The wheels' motors whose torque has a limit. `smallest` is the share of the limit that counts. Where a

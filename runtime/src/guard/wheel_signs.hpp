@@ -1,4 +1,4 @@
-/// Tells when the encoder of a wheel counts the wrong way round.
+/// Detects an encoder of a wheel that counts the wrong way round.
 #pragma once
 
 #include <optional>

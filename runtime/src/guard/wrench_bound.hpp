@@ -35,7 +35,7 @@ class WrenchBound {
   static constexpr double stiffness = 1e6;  ///< K [N/m]: steel on steel; shipped walls have a tenth of it
   static constexpr double hit = 1.5;        ///< of v sqrt(K m)
   static constexpr double memory = 0.5;     ///< [s] of v: a hit on 2 kN/m compresses for 0.24 s with 46 kg
-  static constexpr double pause = 1.0;      ///< [s] without one before the next is told
+  static constexpr double pause = 1.0;      ///< [s] without one before the next is reported
 
  private:
   struct MovingJoint {

@@ -17,7 +17,7 @@ enum class Level { unknown = 0, debug = 1, info = 2, warning = 3, error = 4 };
 enum Topic : std::size_t { transforms, fixed_transforms, scene, log };
 std::vector<LogChannel> channels();
 
-/// `time` [s] since the begin of the clock that the run accepts.
+/// `time` [s] since the start of the clock that the run accepts.
 nlohmann::ordered_json stamp(double time);
 /// Puts transforms together, as text: 50 messages a second through objects of JSON took a quarter of the
 /// log's processor time. Keeps its memory from message to message.

@@ -100,7 +100,7 @@ constexpr RotationUnit rotation_units[] = {{"kB", 1e3, false},     {"MB", 1e6, f
                                            {"min", 60.0, true},    {"GiB", 0x1p30, false}};
 constexpr double fewest_bytes = 1e6, shortest = 1.0, most = 1e15;
 
-/// Where nobody writes it: a run keeps a lock on its log. Links and pipes are left for `LogFile` to refuse.
+/// Removes it unless a run writes it, which keeps a lock on its log. `LogFile` refuses links and pipes.
 std::string remove_file(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return "";

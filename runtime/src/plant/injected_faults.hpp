@@ -33,12 +33,12 @@ class InjectedFaults {
     Eigen::Index joint = -1;
     bool by_hand = false;
     bool has_begun = false;
-    double kept = 0.0;  ///< torque at the begin
+    double kept = 0.0;  ///< torque at the onset
   };
   static bool in_force(const lang::Fault& fault, double time) noexcept;
 
   std::vector<Injected> faults_;
-  solver::State kept_;  ///< at the begin of a frozen state
+  solver::State kept_;  ///< at the onset of a frozen state
   bool is_frozen_ = false;
 };
 

@@ -65,8 +65,7 @@ struct MujocoPlant::Simulation {
   MovingRobot& first() noexcept { return robots.front(); }
   const MovingRobot& first() const noexcept { return robots.front(); }
   int id_of(int type, const std::string& name) const;
-  /// A hook that is near enough to its socket, and pressed on it as hard as that asks, is tied to the object
-  /// where it is.
+  /// Ties a hook to the object where it is, if it is near enough to its socket and pressed hard enough on it.
   void latch_hooks() noexcept;
   void set_dock(std::size_t owner, bool holds) noexcept;
   /// MuJoCo's tie pushes the hook with `f`, and so the dock with -f: pull = -f . n, n outwards.

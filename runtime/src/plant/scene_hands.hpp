@@ -13,7 +13,7 @@ class SceneHands {
   /// `first` is the first robot's model. The programs of the scene's robots are loaded.
   SceneHands(const lang::Scene& scene, const solver::Model& first);
 
-  /// How many there are, at whatever time.
+  /// The number of hands, over the whole run.
   std::size_t size() const noexcept { return hands_.size(); }
   /// The hands that press at `time` [s]; until the next call.
   std::span<const BodyPush> at(double time) noexcept;

@@ -40,7 +40,7 @@ class SceneSignals {
   void block(const std::vector<bool>& blocked) noexcept;
   /// Measures what is due at `truth.time`; `state` is the seeing robot's true one.
   void measure(const Truth& truth, const solver::State& state) noexcept;
-  /// What has arrived by then.
+  /// The samples that have arrived by `time`.
   void report(double time, std::vector<SignalSample>& samples) const noexcept;
   /// The last pose of the base that arrived.
   std::optional<MeasuredPose> base_fix(double time) const noexcept;
@@ -67,7 +67,7 @@ class SceneSignals {
   void measure(Source& source, const Truth& truth, const solver::State& state) noexcept;
   /// The youngest that has arrived.
   static const SignalSample* arrived(const Source& source, double time) noexcept;
-  /// Where it is, whatever has this number: an object, or a robot.
+  /// The pose of the object or robot with this number.
   PlanarPose pose_of(const Truth& truth, int number) const noexcept;
   /// The same, or the pose of its dock: there x points from the socket at the origin.
   PlanarPose seen_pose(const Truth& truth, int number) const noexcept;

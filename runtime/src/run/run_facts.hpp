@@ -14,7 +14,7 @@ using RunFacts = std::map<std::string, std::string>;
 /// The version, the compiler and the library that torques depend on to their last bit, and the settings.
 RunFacts facts_of(const RunnerSettings& settings, double period);
 
-/// Throws std::runtime_error where they do not say the control period, or a number is none.
+/// Throws std::runtime_error where they lack the control period, or a number is invalid.
 RunnerSettings settings_of(const RunFacts& facts);
 
 /// The number that `exactly` has written; nullopt for a text that is no number.

@@ -46,8 +46,8 @@ void Runner::Parts::compare(const solver::State& measured) noexcept {
   }
   scheduler.estimate_force(disturbance.base_force());
   scheduler.estimate_wrenches(disturbance.motions(), disturbance.force(), period);
-  // A wheel that slides gives the ground less than its motor gives the wheel; what no encoder tells, tells
-  // nothing of a motor.
+  // A wheel that slides gives the ground less than its motor gives the wheel. Without encoder counts there is
+  // no evidence about a motor.
   if (slip.doubtful() || blind_budget.takes_over()) {
     motors.reset();
     return;

@@ -51,7 +51,7 @@ struct Runner::Parts {
 
   // Of runner_judge.cpp.
   void judge_clock(const Sensed& sensed) noexcept;
-  /// Whether encoders confirm what the motors were told.
+  /// Whether encoders confirm the motors' commands.
   void confirm() noexcept;
   /// Compares the last command with the motion of motors and wheels. `measured`: the sample before its
   /// projection.
@@ -77,9 +77,9 @@ struct Runner::Parts {
   void hand_over() noexcept;
   /// The torques to send, or the brake's; and what is expected of them.
   void send(bool good, bool solved) noexcept;
-  /// `tau` and, of a drive that takes velocities, what it is told beside.
+  /// Writes `tau` and, for a drive that takes velocities, the rest of its command.
   void put_command(bool good, bool solved) noexcept;
-  /// Tells a protective stop once and follows it to its end; forgets one that was reset.
+  /// Reports a protective stop once and follows it to its end; forgets a stop that was reset.
   void keep_stop(bool good_sample) noexcept;
   void brake_protectively(bool good_sample) noexcept;
 
@@ -115,7 +115,7 @@ struct Runner::Parts {
   Sensed sample;                     ///< the same, its velocities as the ground allows them, and its signals
   Odometry odometry;
   std::optional<double> start;  ///< [s] of the first good sample
-  bool reckoning = false;       ///< the base is not measured: `odometry` tells it
+  bool reckoning = false;       ///< the base is not measured: `odometry` reckons it
   double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
   FrictionEstimate friction;
   Press press;
@@ -147,7 +147,7 @@ struct Runner::Parts {
   LogLayout layout;
   std::vector<double> given_parameters;  ///< as they stood when the tick began
   Recorder* recorder = nullptr;
-  Eigen::VectorXd handed_over;        ///< what the torques differ by at a swap of programs
+  Eigen::VectorXd handed_over;        ///< difference of the torques at a swap of programs
   double handed_over_for = handover;  ///< [s] since then
   Eigen::VectorXd wanted;             ///< the solution's torques and the friction's
   Eigen::VectorXd tau;                ///< sent
@@ -165,8 +165,8 @@ struct Runner::Parts {
   bool is_a_wheel_dead = false;  ///< the stop is for its encoder
   RestWatch rest;                ///< after a protective stop
   bool is_past_stop = false;     ///< a protective stop is over, by its time if not by rest
-  bool is_rest_doubted = false;  ///< and nobody saw the base stand
-  bool is_end_doubted = false;   ///< in the end of the task, the same
+  bool is_rest_doubted = false;  ///< no sample has shown the base at rest after it
+  bool is_end_doubted = false;   ///< no sample has shown the base at rest after the task
 };
 
 }  // namespace zwang::runtime

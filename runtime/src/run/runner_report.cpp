@@ -252,7 +252,7 @@ std::optional<Why> Runner::why() const {
   return why_of(end);
 }
 
-/// With the signal that told it, and what that read.
+/// The stop, with the signal that showed it and that signal's value.
 std::string Runner::describe_stop() const {
   const Event& stop = parts_->guard.stop_event();
   const std::string signal = event_signal(stop);

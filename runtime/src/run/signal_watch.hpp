@@ -1,4 +1,4 @@
-/// Tells when samples of a signal, or poses of the base, come and cannot be taken.
+/// Reports samples of a signal, or poses of the base, that come and cannot be taken.
 #pragma once
 
 #include <limits>

@@ -74,7 +74,7 @@ class Sentence {
   std::string text(const Transition* t) const {
     const std::string of = t != nullptr ? of_transition(*t) : of_the_end();
     const std::string note = t != nullptr ? end_.scheduler.note(*t) : "";
-    // A stop comes last of what the guard told: wheels that slide seem to have motors that turn the wrong
+    // A stop comes last of the guard's reports: wheels that slide seem to have motors that turn the wrong
     // way.
     if (why_.cause == WhyCause::stopped && !end_.told.empty()) return told() + "; then " + of + at_limit();
     return (note.empty() ? "" : note + ": ") + of + (end_.told.empty() ? "" : "; ") + told() + at_limit();

@@ -19,7 +19,7 @@ class TurningPoint {
   void look(const Transition& transition, const Scheduler& scheduler, const LimitTable& limits) noexcept;
 
   const std::optional<Transition>& found() const noexcept { return found_; }
-  /// Some task of the way so far led to `done`. A patrol has none: it waits, whatever it came by.
+  /// Some task of the way so far led to `done`. A patrol has none: it waits in any case.
   bool leads_to_done() const noexcept { return leads_to_done_; }
   /// The one through which the task was entered that was left then.
   const std::optional<Transition>& entry() const noexcept { return entry_; }
@@ -48,7 +48,7 @@ struct EndOfRun {
   std::string limit_keeps;           ///< of a region: "`footprint` inside `ward`"
   std::string stop;                  ///< what latched the protective stop; empty: it is not latched
   std::vector<RefusedSignal> refused;
-  std::vector<std::string> told;  ///< what the guard told while the task was active, in words
+  std::vector<std::string> told;  ///< the guard's reports while the task was active, in words
 };
 Why why_of(const EndOfRun& end);
 

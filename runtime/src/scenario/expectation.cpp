@@ -11,7 +11,7 @@ using lang::Op;
 
 namespace {
 
-constexpr double not_at_all = -1.0;  ///< margin of what nobody knows
+constexpr double not_at_all = -1.0;  ///< margin of an unknown condition
 
 double distance(double below, double above, double scale) {
   const double left = above - below;

@@ -22,7 +22,7 @@ class TrueFacts {
   /// Of another robot of the scene.
   void update_partner(std::size_t number, const Truth& truth, double torque_share) noexcept;
   void note_partner_stop(std::size_t number, double time) noexcept;
-  /// When the protective stop latched, and when slip was told first [s].
+  /// When the protective stop latched, and when slip was first reported [s].
   void note_stop(double time) noexcept;
   void note_slip(double time) noexcept;
   /// The torques that a tick gives, of which `is_switch` says that it went from one task to another.
@@ -31,7 +31,7 @@ class TrueFacts {
   void note_outputs(std::span<const double> outputs) noexcept;
   /// `task` is one of the program's; `back` is no entry.
   void note_entry(int task, double time) noexcept;
-  /// NaN where nobody knows: an object that was never touched, a frame that hangs on a signal.
+  /// NaN for an unknown value: an object that was never touched, a frame that depends on a signal.
   double look_up(const lang::ExpressionNode& node) const noexcept;
   double quantity(int index) const noexcept { return values_[static_cast<std::size_t>(index)]; }
 

@@ -34,7 +34,7 @@ class RestWatch {
     has_mean_ = true;
     stood_for_ = is_at_rest(twist) || is_at_rest(mean_) ? stood_for_ + period : 0.0;
   }
-  /// A period without a sample that tells it.
+  /// A period without a sample that shows the twist.
   void doubt() noexcept { stood_for_ = 0.0; }
   double stood_for() const noexcept { return stood_for_; }  ///< [s]
 

@@ -14,7 +14,7 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double damping = 1e-9;  // of the trace: keeps what nobody feels at 0
+constexpr double damping = 1e-9;  // of the trace: keeps a direction without a measurement at 0
 
 }  // namespace
 

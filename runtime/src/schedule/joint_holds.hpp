@@ -1,4 +1,4 @@
-/// Joints with a motor that nobody uses are held where they are: an arm while the base works, a steering.
+/// Joints with a motor that no task uses are held in place: an arm while the base works, a steering.
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ void PathFollower::search(const solver::Vector3& point) noexcept {
   }
   rounds_ = 0;
   follow(point);
-  // A frame near the begin of a closed path is there, and not a whole round ahead.
+  // A frame near the start of a closed path is there, and not a whole round ahead.
   const double along = arc_length() + lang::place_on(piece(), point.x(), point.y()).along;
   if (path_->is_closed && along > 0.5 * path_->length()) --rounds_;
 }

@@ -11,7 +11,7 @@ namespace zwang::runtime {
 
 class PathFollower {
  public:
-  /// Nearer to the centre of an arc than this share of its radius, nobody knows where the frame is along it.
+  /// Nearer to an arc's centre than this share of its radius, the frame's place along it is unknown.
   static constexpr double least_share = 0.1;
 
   /// `path` must live as long.

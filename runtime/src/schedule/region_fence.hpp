@@ -41,9 +41,10 @@ class ZWANG_EXPORT RegionFence {
   double fastest() const noexcept { return fastest_; }
   /// Only pairs that face each other have to be kept apart.
   bool faces(std::size_t pair) noexcept;
-  /// a_brk before a pair. An edge leaves a share to those that can bind with it, the least that it has on the
-  /// way that the base turns until it stands. `to_base`: from the world into the base's axes. `box`: what its
-  /// ranges leave along x and y [m/s^2]. `turning`: the base's yaw rate [rad/s].
+  /// a_brk before a pair. Edges that can be active together share the braking acceleration. The share is the
+  /// smallest one over the headings that the base sweeps before it stops. `to_base`: from the world into the
+  /// base's axes. `box`: the accelerations that its ranges leave along x and y [m/s^2]. `turning`: the base's
+  /// yaw rate [rad/s].
   double braking(std::size_t pair, const solver::Matrix3& to_base, const Eigen::Vector2d& box,
                  double turning) noexcept;
   /// No pair brakes with less, however the base is turned. [m/s^2]

@@ -106,8 +106,8 @@ bool Scheduler::Parts::find_pushes() noexcept {
   return yields;
 }
 
-/// A range of accelerations is one of the base, and somebody who pushes it has a share of them: the motors
-/// may hold against that share on top. They may not push beyond the range along with it.
+/// A range of accelerations is the base's, and a person who pushes it has a share of them. The motors may
+/// hold against that share on top. They may not push beyond the range along with it.
 Range Scheduler::Parts::with_what_pushes(Range acceleration, int base_axis) const noexcept {
   if (base_axis < 0 || base_axis == both_axes) return acceleration;
   const double push = pushes(base_axis);

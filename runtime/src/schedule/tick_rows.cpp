@@ -29,7 +29,7 @@ bool says_something(const AxisStatements& axis) {
 constexpr double least_braking = 1e-3;  // [m/s^2] or [rad/s^2]
 // Nearer than what can brake in time by this much speed, a pair of features is near.
 constexpr double near_speed = 0.3;    // [m/s]
-constexpr double lost_speed = 0.001;  // [m/s] inside a region that nobody knows where it is
+constexpr double lost_speed = 0.001;  // [m/s] inside a region whose place is unknown
 
 }  // namespace
 
@@ -142,7 +142,7 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
 void Scheduler::Parts::want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept {
   const AxisStatements& s = *a.says;
   const lang::Group& g = *a.group;
-  // In axes that nobody knows, a range of places or of speeds allows no motion.
+  // In axes that are unknown, a range of places or of speeds allows no motion.
   const bool blind = !is_known(g.in) || !is_known(g.move) || is_off_path(g);
   const bool stands_by_driver = c.driver && !c.driver->makes_force();
   c.position.reset();
@@ -180,7 +180,7 @@ void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexc
   }
 }
 
-/// Inside a region that nobody knows where it is: the first pair's constraint.
+/// The constraint inside a region whose place is unknown: that of the first pair.
 void Scheduler::Parts::want_standstill(const ActiveAxis& a) noexcept {
   const lang::Group& g = *a.group;
   solver::AxisConstraint& c = wanted[a.wanted].constraint;

@@ -229,8 +229,8 @@ ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
   a.hangs_on_signal = frames.signal_of(a.group->in) >= 0 || frames.signal_of(a.group->move) >= 0 ||
                       a.says->target.signal >= 0 || a.says->yield;
   a.is_along_path = a.group->path >= 0;
-  // How hard a range of places may brake hangs on where the base points, and how hard a base that rolls may
-  // accelerate on how it turns.
+  // The braking of a range of places depends on the base's heading. The acceleration of a base that rolls
+  // depends on its turning.
   const bool rolls = a.plane >= 0 && planes[static_cast<std::size_t>(a.plane)].rolls;
   a.varies = a.hangs_on_signal || a.is_along_path || a.says->position || a.says->build_up || rolls;
   return a;

@@ -147,7 +147,7 @@ void WhitenedRows::turn(int reflection, double* y) const noexcept {
   add_to_line(-scale_(reflection) * (sum[0] + sum[1]), v, first, ground_end_, y);
 }
 
-/// The same of two.
+/// Two lines, or two vectors by dimension, under a reflection.
 void WhitenedRows::turn_two(int reflection, double* one, double* other) const noexcept {
   const double* const v = &reflections_(reflection, 0);
   const double scale = -scale_(reflection);

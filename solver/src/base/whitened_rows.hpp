@@ -54,9 +54,9 @@ class WhitenedRows {
   /// keeps its height, roll and pitch.
   void hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
                    const Vector3& base_motion = Vector3::Zero()) noexcept;
-  /// The same where h is 0.
+  /// The held motion where h is 0.
   void hold_ground_at_rest(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept;
-  /// The acceleration along a row then, nobody pushing.
+  /// The acceleration along a row then, without constraint forces.
   double acceleration(int row) const noexcept {
     return task_->drift(row) + dot(dimensions_, line(row), held_motion_.data());
   }

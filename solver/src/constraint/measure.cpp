@@ -106,7 +106,7 @@ Measurement along_angle(const FrameMotion& f, const FrameMotion& t, Axis axis, A
 
 /// s = atan2(y, x) of p_T in F, with d = p_T - p_F, r^2 = x^2 + y^2, and t the unit vector across d over r:
 ///   t = (x e_y - y e_x)/r^2     ds = t.(v_T - v_F - w_F x d)
-/// What grows with the motion of T shrinks with that of F, so that a = (-d x t, -t). With the velocity
+/// s grows with the motion of T and shrinks with that of F, so a = (-d x t, -t). With the velocity
 /// u = v_T - v_F - w_F x d of T seen from F, points accelerate with A + w x v, and
 ///   gamma = t.(w_T x v_T - w_F x v_F - w_F x (w_F x d) - 2 w_F x u) - 2 ds (x u_x + y u_y)/r^2
 /// On F's z axis it has no direction.

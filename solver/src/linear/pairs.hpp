@@ -77,7 +77,7 @@ inline void add_to_two_lines(double upper, double lower, const double* x, int fi
   }
 }
 
-/// The same of one line.
+/// A line of numbers += factor x, in columns [first, last). Of an odd number of columns one more.
 inline void add_to_line(double factor, const double* x, int first, int last, double* line) {
   for (int l = first; l < last; l += 2) Pair(line + l) += factor * ConstPair(x + l);
 }

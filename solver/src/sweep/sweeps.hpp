@@ -51,7 +51,7 @@
 namespace zwang::solver {
 
 struct BodySweep {
-  // What stays: of the model.
+  // The constants of the model.
   double mass = 0.0;
   Vector3 com_in_body;
   Matrix3 inertia_in_body;          ///< about the centre of mass

@@ -50,7 +50,7 @@ enum class EventCode {
                    ///< 0
   probed,       ///< no encoder counted where the motors should have moved the base; told to move back, it did
   outside,      ///< a frame stands outside of a position range or a region that holds it; `value`: how far
-  not_at_rest,  ///< the longest time of a stop is over, and nobody has seen the base stand; `value`: its
+  not_at_rest,  ///< the longest time of a stop is over, and no sample shows the base at rest; `value`: its
                 ///< speed, as far as it is known
 };
 inline constexpr EventCode last_event_code = EventCode::not_at_rest;

@@ -34,7 +34,7 @@ struct LogDifference {
 
 /// Records are pairs if their times since the runs began are the same to a quarter of the shorter period. So
 /// logs of unlike rates are compared at the instants that both have. Numbers are compared bit by bit; zeros
-/// of either sign are alike. Clocks count from the begin of their run. Throws as `read_log`.
+/// of either sign are alike. Clocks count from the start of their run. Throws as `read_log`.
 ZWANG_EXPORT LogDifference difference(const std::filesystem::path& first,
                                       const std::filesystem::path& second);
 

@@ -26,7 +26,7 @@ struct LogRotation {
   std::optional<std::uint64_t> bytes;  ///< that are on disk
   bool is_asked() const { return seconds || bytes; }
 };
-/// `500 MB`, `2 GB`, `90 s`, `10 min`, `1 h`, put into `rotation`: at least 1 MB, or 1 s. False: it is none.
+/// `500 MB`, `2 GB`, `90 s`, `10 min`, `1 h`, put into `rotation`: at least 1 MB, or 1 s. False: neither.
 ZWANG_EXPORT bool read_rotation(std::string_view text, LogRotation& rotation);
 
 /// Writes `STEM_0.mcap`, `STEM_1.mcap` and so on, as rosbag2 splits a bag. Each file opens by itself; from

@@ -1,4 +1,4 @@
-/// Where the base is, by its wheels: dead reckoning, corrected by poses that somebody else measures.
+/// Where the base is, by its wheels: dead reckoning, corrected by poses of another sensor.
 #pragma once
 
 #include <vector>
@@ -30,9 +30,9 @@ class ZWANG_EXPORT Odometry {
   /// Keeps its own height, roll and pitch: those of `start`.
   void update(double time, solver::State& state) noexcept;
 
-  /// A pose X_WB of the base that was measured at `stamp` [s], which is not later than the last update; call
-  /// it before `update`, once a measurement. Only x, y and yaw count. False when it is too old, not finite or
-  /// its rotation is none, and then nothing happens.
+  /// A pose X_WB of the base that was measured at `stamp` [s], which is not later than the last update. Call
+  /// it before `update`, once a measurement. Only x, y and yaw count. False, without an effect, when it is
+  /// too old, not finite or its rotation is invalid.
   bool correct(double stamp, const solver::Pose& measured) noexcept;
 
   static constexpr double longest_step = 0.1;  ///< [s] beyond it a clock jumped, and the base did not

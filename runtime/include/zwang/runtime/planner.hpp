@@ -61,7 +61,7 @@ struct TaskPlan {
   std::vector<lang::Diagnostic> notes;
 };
 
-/// What the spreads are over.
+/// The configurations over which the spreads are taken.
 struct Configurations {
   std::size_t count = 1;
   std::string words;

@@ -35,7 +35,7 @@ struct SignalSample {
   solver::ForceVector wrench;  ///< in the axes of `in` and about its origin [N m, N]
 };
 
-/// Where the base was, by somebody who sees it: a localisation, a tracker, a mark on the wall.
+/// The base's past pose from an external sensor: a localisation, a tracker, a mark on the wall.
 struct MeasuredPose {
   double stamp = 0.0;  ///< [s] when it was measured, by the clock of `Sensed::time`
   solver::Pose pose;   ///< X_WB; only x, y and yaw count
@@ -65,7 +65,7 @@ struct Sensed {
   /// reckons them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll
   /// and pitch do not count: the floor is level.
   bool base_measured = false;
-  /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
+  /// An occasional measurement that corrects the reckoning. The same stamp again is the same
   /// measurement.
   std::optional<MeasuredPose> base_fix;
   /// Parallel to the signals of the program that the runner was made with, also after a swap of programs,

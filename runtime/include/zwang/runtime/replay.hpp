@@ -37,9 +37,9 @@ struct ReplayResult {
   std::optional<ReplayDifference> first;
 };
 
-/// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
-/// events, what a host reset from where the stop ended, parameters that it set from their columns. Throws
-/// std::runtime_error when the log cannot be opened, or does not hold what was sensed in each tick.
+/// Every torque that was sent, compared bit by bit. Stops from outside are taken from the log's events, a
+/// host's resets from the ends of the stops, and its parameters from their columns. Throws std::runtime_error
+/// when the log cannot be opened, or does not hold the inputs of each tick.
 ZWANG_EXPORT ReplayResult replay(const std::filesystem::path& log, const lang::Program& program,
                                  const RunnerSettings& settings);
 

@@ -82,7 +82,7 @@ struct RunnerSettings {
   std::vector<Column> extra_columns;  ///< logged behind the runner's own; `step` is given their values
 };
 
-/// What reports say of `Runner::may_still_move`.
+/// The sentence of reports for `Runner::may_still_move`.
 inline constexpr const char* unseen_rest = "no sample has shown the base at rest: it may still move";
 
 /// One thread at a time calls it. A runner that was moved from can be destroyed or assigned to, no more.

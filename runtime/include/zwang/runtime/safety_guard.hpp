@@ -1,4 +1,4 @@
-/// The last stage before the robot. It trusts nobody: not the sensors, not the clock, not the solver.
+/// The last stage before the robot. It trusts neither the sensors nor the clock nor the solver.
 #pragma once
 
 #include <Eigen/Core>
@@ -84,8 +84,8 @@ class ZWANG_EXPORT SafetyGuard {
   /// Latches the protective stop, for one of the codes that do. The first reason is kept. The event also
   /// holds the signal that showed it and that signal's value.
   void stop(EventCode reason, int signal = -1, double value = 0.0) noexcept;
-  /// From now on a stop neither believes nor remembers the wheels' rates: whoever knows the base by other
-  /// means says what its wheels are to do. False: it does again.
+  /// From now on a stop neither trusts nor remembers the wheels' rates: a caller that knows the base by other
+  /// means commands its wheels. False: it does again.
   void brake_by_model(bool yes) noexcept { brakes_by_model_ = yes; }
   bool stopped() const noexcept { return stop_event_.code != EventCode::none; }
   EventCode reason() const noexcept { return stop_event_.code; }  ///< `none` while nothing latched the stop

@@ -160,7 +160,7 @@ class ZWANG_EXPORT Scheduler {
   AxisReading reading(const Origin& origin) const noexcept;
   /// How long the condition of the active task's exit has been true without a break. [s]
   double dwell(int exit) const noexcept;
-  double always_dwell(int exit) const noexcept;  ///< the same of an exit of `always` [s]
+  double always_dwell(int exit) const noexcept;  ///< dwell of an exit of `always` [s]
   const std::vector<double>& parameters() const noexcept;
   /// Sets a parameter from outside, between two ticks; constraints follow on the next one. False, and nothing
   /// happens, for an index or a value outside its range or a value that is not finite.

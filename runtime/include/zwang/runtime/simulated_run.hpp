@@ -21,9 +21,9 @@ class ZWANG_EXPORT SimulatedRunHost {
   virtual void look_after_step(const Sensed& /*sensed*/) {}
 };
 
-/// Steps the plant under the runner until the task is over, the plant fails, the base falls, `time_limit` [s]
-/// is reached, or the host ends it. If the task is over, a base that leans comes down again. Returns the
-/// plant's last status; `sensed` is the last sample that arrived.
+/// Steps the plant under the runner until the run ends. It ends when the task is over, the plant fails, the
+/// base falls, `time_limit` [s] is reached, or the host ends it. If the task is over, a base that leans comes
+/// down again. Returns the plant's last status; `sensed` is the last sample that arrived.
 ZWANG_EXPORT PlantStatus run_simulated(ScenePlant& plant, Runner& runner, Sensed& sensed, double time_limit,
                                        SimulatedRunHost& host);
 

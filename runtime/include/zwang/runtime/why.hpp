@@ -63,7 +63,7 @@ enum class WhyCause {
   waiting,      ///< nothing yet: the run goes on, or was ended from outside
   timeout,      ///< of the task
   exit,         ///< one of the task's own exits, to where `done` cannot be reached from
-  always,       ///< the same of `always`
+  always,       ///< an exit of `always`, to where `done` cannot be reached from
   require,      ///< of the task that was to be entered
   attempts,     ///< of the task that was to be entered
   set,          ///< of a frame on the way to the task, whose pose was not known

@@ -170,7 +170,7 @@ class ZWANG_EXPORT ConstraintSet {
   std::vector<Row> rows_;
   bool folds_ = true;
   bool has_folded_ = false;      ///< a motion driver has ranges beside it
-  bool is_driven_back_ = false;  ///< somebody is outside of a position range
+  bool is_driven_back_ = false;  ///< a coordinate is outside of a position range
   BodyMotions motions_;
 };
 

@@ -1,5 +1,5 @@
-/// Algorithm 1 as a plain call: equality constraints in, torques and accelerations out. For whoever wants the
-/// solver only.
+/// Algorithm 1 as a plain call: equality constraints in, torques and accelerations out. For users of the
+/// solver alone.
 ///
 /// Of all accelerations with A_N' Xdd = b_N it finds the one of least constraint (Gauss's Zwang). No bounds,
 /// no levels, no motors: `Solver` has those.
@@ -48,7 +48,7 @@ class ZWANG_EXPORT PopovVereshchagin {
         0.0;  ///< lambda: L + lambda^2 1 instead of L; 0: the rank is found and nu is the one of least norm
   };
 
-  /// Throws std::invalid_argument on a setting that is none.
+  /// Throws std::invalid_argument on an invalid setting.
   explicit PopovVereshchagin(const Model& model) : PopovVereshchagin(model, Settings{}) {}
   PopovVereshchagin(const Model& model, const Settings& settings);
   ~PopovVereshchagin();
