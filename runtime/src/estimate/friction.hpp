@@ -33,9 +33,10 @@ namespace zwang::runtime {
 ///   c coulomb <= true coulomb   and   delta >= true delta.
 /// With c = 80 % a coulomb may be 25 % too large. If delta is too short, swings smaller than the true delta
 /// gain at most 4 c coulomb (true delta - delta) each; one mass and spring rings from 0.7 on. If delta is too
-/// long, it still has the old direction when friction has the new one: |e| <= coulomb (1 + c - 2 c
-/// true/delta). That is 0.4 coulomb at 1.14, and up to 2 no more than without compensation. An encoder's
-/// noise of the amplitude n shakes the torque by c coulomb n/delta and keeps z/delta short of 1 by n/delta.
+/// long, it still has the old direction when friction has the new one:
+///   |e| <= coulomb (1 + c - 2 c true/delta),
+/// that is 0.4 coulomb at 1.14, and up to 2 no more than without compensation. An encoder's noise of the
+/// amplitude n shakes the torque by c coulomb n/delta and keeps z/delta short of 1 by n/delta.
 ///
 /// Does not allocate, lock, throw or print after construction.
 class FrictionEstimate {

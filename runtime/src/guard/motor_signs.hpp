@@ -12,8 +12,8 @@
 
 namespace zwang::runtime {
 
-/// A sign that is wrong for every motor, or for every encoder. The base accelerates against its command, c =
-/// sum of T_j tau_j in the coordinates of free motion, with
+/// A sign that is wrong for every motor, or for every encoder. The base accelerates against its command,
+/// c = sum of T_j tau_j in the coordinates of free motion, with
 ///   p = -gamma c,   gamma = 2.
 /// The controller that sees the wrong motion drives it on. The sign is wrong from the first torque or never.
 /// So the check runs until the motors were seen to obey, gamma near 0. A contact takes gamma = 1 of the force

@@ -11,12 +11,12 @@ namespace zwang::runtime {
 /// Each driven wheel damps its own motion, tau = -d qd within its limit. This can only take energy, as long
 /// as the motor obeys its command. A motor that does the opposite drives the base instead, faster than the
 /// others brake it. Of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
-/// is left out. If the wheels get faster under the brake, the one with the largest gain is left out. The next
-/// ones follow one by one, until the gain ends, or all are out. Few wheels cannot brake every motion without
-/// the suspect. If they roll on evenly, the torque of the left-out motor is reversed. If the wheels then get
-/// faster, that motor obeys. A motor that was only under suspicion brakes again, and another one is left out
-/// for good. That also brakes a base whose motors, or encoders, are all wired the wrong way round. Where no
-/// choice brakes, all of them are left out.
+/// is left out. If the wheels get faster under the brake, the one with the largest gain is left out instead.
+/// If that does not end the gain, each wheel in turn is left out, and at last all of them. Few wheels cannot
+/// brake every motion without the one that is left out. If they roll on evenly, its torque is reversed. If
+/// the wheels then get faster, its motor obeys. A motor that was only under suspicion brakes again; any other
+/// motor stays left out, without torque. That also brakes a base whose motors, or encoders, are all wired the
+/// wrong way round.
 ///
 /// While a motor is only under suspicion, the brake is a tenth as stiff. Another motor that drives the base
 /// then needs at least some 40 ms to double a rate. The brake sees that before that motor presses.
@@ -28,8 +28,8 @@ namespace zwang::runtime {
 /// It is damped only beyond that. Against a person who drives the base all of the torques are still
 /// available.
 ///
-/// Without samples the brake continues from the last one. The kinetic energy T of that sample is gone after 2
-/// T / P, with P the power of the brakes at that moment, if no other force acts. The brake ends earlier, by
+/// Without samples the brake continues from the last one. The kinetic energy T of that sample is gone after
+/// 2 T / P, with P the power of the brakes at that moment, if no other force acts. The brake ends earlier, by
 /// the possible error of the model: a brake that acts on a past speed drives the robot backwards. Does not
 /// allocate, lock, throw or print after construction.
 class WheelBrake {

@@ -32,8 +32,8 @@ lang::Target Scheduler::Parts::led_past(lang::Target target) const noexcept {
   return target;
 }
 
-/// An exit of `always` is ignored in two cases: its own target, or the target of used up attempts, is active;
-/// or it is `back` and no task was interrupted.
+/// An exit of `always` is ignored while its own target is active, or the target of used up attempts. `back`
+/// is ignored if no task was interrupted.
 bool Scheduler::Parts::is_heeded(const lang::Target& target) const noexcept {
   const lang::Target to = led_past(target);
   return to.kind == lang::TargetKind::back ? interruption.task >= 0 : !is_own_target(to);

@@ -6,10 +6,10 @@
 //   a limit beyond another one of its side            has nothing to do while that one holds
 //   a limit that contradicts one of a level above     pushes with all its force, and in vain
 //
-// Both are left out. The first is idle: if the other limit has its own level, it is left out of all that
-// follows. The second is left out of a stage, with its force, against which the limit above pushes. Most
-// other limits have room, and wait. The drivers are solved for alone, and the limits that they would break
-// join.
+// Both are left out. The first is idle: if the other limit has the same level, the first is left out of all
+// that follows. The second is left out of a stage. Its force stays, and the limit above pushes against it.
+// Most other limits have room, and wait. The drivers are solved for alone, and the limits that they would
+// break join.
 //
 //   a driver that mostly wants what such a limit forbids    pushes with all its force, and in vain, too
 //
