@@ -18,7 +18,7 @@ namespace zwang::lang {
 /// The mass of casters and swivels has its extremes at those angles.
 ZWANG_EXPORT std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene);
 
-/// What `configurations` looks at, in words: for reports that give figures over them.
+/// The configurations that `configurations` returns, in words, for reports that give figures over them.
 ZWANG_EXPORT std::string describe_configurations(const Robot& robot);
 
 /// The solver's figures of an axis as a task can use them. Where the ground leaves less than a thousandth of

@@ -1,5 +1,4 @@
-/// What the front end has to say to an author: one list that every phase writes into, rendered in several
-/// forms.
+/// Diagnostics of the front end. Every phase adds to one list, which is rendered in several forms.
 #pragma once
 
 #include <iosfwd>
