@@ -51,7 +51,8 @@ PlannedAxis own_axis(solver::Axis axis, const std::string& what, const Robot& ro
   return own;
 }
 
-/// What the base slides along and no motor pushes: askew to a boundary, it would have to brake there, too.
+/// An axis that the base slides along and no motor pushes along. If the base stands askew to a boundary, it
+/// has to brake along this axis, too.
 bool ask_motors(const Robot& robot, const Span& span, const std::string& what, Probe& probe,
                 Remarks& remarks) {
   for (const solver::Axis axis : own_axes) {

@@ -25,8 +25,8 @@ double farthest_along(const Confinement& confinement, const solver::Vector3& dir
 /// base is turned. [m]
 double most_outside(const Confinement& confinement, const Robot& robot, const solver::Vector3& point);
 
-/// What is left of an axis's position; nullopt where it is none of a point of the base along an axis that
-/// stands in the world. [m]
+/// The range [m] that a region leaves of an axis's position. nullopt: the axis does not move a point of the
+/// base, or does not stand in the world.
 std::optional<solver::Range> left_of_position(const Confinement& confinement, const PlannedAxis& axis,
                                               const Robot& robot);
 

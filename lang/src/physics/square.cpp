@@ -25,7 +25,8 @@ namespace {
 
 using solver::Quantity;
 
-/// What the floor holds a base with whose wheels slide sideways when it turns; 0 where none does. [N m]
+/// The moment [N m] of the floor's friction on a base whose wheels slide sideways when it turns. 0: no wheel
+/// slides.
 double scrub(const Robot& robot, double friction) {
   const solver::Model& model = robot.model;
   std::vector<double> ahead;
@@ -55,7 +56,7 @@ std::optional<Span> asked_by(const TaskText& task, const PlannedAxis& axis) {
   return std::nullopt;
 }
 
-/// What a row that keeps the axis still gives way to; none where it gives way to nothing. [N m]
+/// The moment [N m] above which a row that keeps the axis still gives way. nullopt: it never gives way.
 std::optional<double> holds_back(const PlannedAxis& axis) {
   const auto& range = axis[Quantity::force];
   if (!axis.stands_still() || !range || axis.text == nullptr) return std::nullopt;

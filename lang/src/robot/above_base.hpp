@@ -1,5 +1,5 @@
-/// What a URDF draws between the world and a base: joints that say how the base moves, which it does by
-/// itself.
+/// The joints that a URDF draws between the world and a base. They describe the base's motion, which the
+/// model of a base has by itself.
 #pragma once
 
 #include <string>

@@ -6,11 +6,12 @@
 /// the axle says something else, in exact arithmetic: the base could only drive ahead. A drawing is rounded,
 /// an axle is not, so the nearest place on one axle is what the drawing means:
 ///
-///   1. an axis that nearly is level, or nearly along x or y of the base, is so; that of a swivel, upright
-///   2. wheels that nearly share an axle on what carries them do, and an axle that nearly meets the axis
-///      that steers it meets it; a wheel alone stands right below
-///   3. axles of base and steered wheels that nearly coincide while all joints are at 0 do, and run through
-///      the base's origin if they nearly do
+///   1. An axis that is nearly level, or nearly along x or y of the base, is exactly so. The axis of a swivel
+///      is upright.
+///   2. Wheels that nearly share an axle on what carries them share it. An axle that nearly meets the axis
+///      that steers it meets it. A wheel alone stands right below.
+///   3. Axles of base and steered wheels that nearly coincide while all joints are at 0 coincide. They run
+///      through the base's origin if they nearly do.
 ///
 /// Solver, odometry, guard and plant read one model, so that all of them see the same exact wheels.
 #pragma once
