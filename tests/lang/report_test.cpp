@@ -1,4 +1,5 @@
-// What was found, as other programs read it: one line each, JSON for editors, SARIF for code scanning.
+// Diagnostics in the forms that other programs read: one line each, JSON for editors, SARIF for code
+// scanning.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -26,7 +26,7 @@ TaskTexts drafted(const std::string& task, const BaseFit& fit) {
   return draft_task(task, texts, fit, "robot.yaml", "scene.yaml");
 }
 
-/// What is said of a task and scene that were drafted for a shipped robot.
+/// The diagnostics of a task and scene that were drafted for a shipped robot.
 std::string said_of(const std::string& task, const char* robot) {
   const test::Folder folder;
   const std::string urdf = std::string(robot) + ".urdf", file = std::string(robot) + ".yaml";
@@ -52,7 +52,7 @@ TEST(TaskDraft, of_every_use_case_is_good_for_the_bases_that_it_is_drafted_for) 
   EXPECT_GE(drafted_tasks, 18);
 }
 
-// What is refused by name is refused by the task's own check.
+// A base that the draft refuses by name is refused by the task's own check, too.
 TEST(TaskDraft, is_refused_for_a_base_that_the_task_would_refuse) {
   for (const auto& [robot, task, code] :
        {std::tuple{"skid_base", "wall_align", "E621"}, std::tuple{"skid_base", "obstacle", "E404"},

@@ -71,7 +71,7 @@ TEST(Sweep, EncodersThatFailAtAnyMomentKeepTheBounds) {
 }
 
 /// Tasks with an arm, objects that give way and the like. docs/limits.md states their bounds, which are
-/// wider: the arm's own speed is bounded by its joints' limits, and nothing hits harder than that.
+/// wider. The arm's own speed is bounded by its joints' limits, and no hit is harder than at that speed.
 TEST(Sweep, EncodersThatFailInAnyOtherTaskAreMeasured) {
   const int runs = test::is_long() ? 300 : 1;
   const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;

@@ -1,5 +1,6 @@
-/// A convex quadratic program solved in extended precision by an interior point, polished by an exact solve
-/// on the active set that the interior point points at, and checked against its optimality conditions.
+/// A convex quadratic program, solved in extended precision by an interior-point method. An exact solve on
+/// the active set of its result polishes the solution. The solution is checked against the optimality
+/// conditions.
 #pragma once
 
 #include <limits>
