@@ -1,6 +1,6 @@
-// What the first hour on a robot of one's own has in store: rates that are never filled in, in another unit,
-// an encoder that counts the other way round, signals by another clock. The robot is simulated, the host
-// between it and the runner makes one mistake.
+// Mistakes of the first hour on a new robot. Rates are never filled in, or have another unit. An encoder
+// counts the other way round. Signals have another clock. The robot is simulated. The host between the robot
+// and the runner makes one mistake.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,8 +68,9 @@ const char* task_of(const std::string& robot) {
   return robot == "diff" ? "wall_align.yaml" : "obstacle.yaml";
 }
 
-/// Believed to stand it would be sped up for ever. Until it is found it speeds up with what the tasks allow,
-/// 0.5 m/s^2: the rates count from 0.04 rad in a window on, which may be under way then, and three follow.
+/// Rates of 0 tell that the base stands, so it would be sped up for ever. Until the mistake is found the base
+/// speeds up with the tasks' 0.5 m/s^2. The rates count from 0.04 rad in a window on. That window may be
+/// under way then, and three follow.
 TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
   for (const char* robot : wired_robots) {
     const Trial run =
@@ -188,10 +189,11 @@ TEST(Wiring, MotorsThatAllTurnTheOtherWayStopTheBase) {
   }
 }
 
-/// Two motors that are told what the other is: no single motor explains it, and forward the base goes as it
-/// should. It is stopped when it is far faster than it may, be it by 0.2 m/s or twice the 0.15 m/s, has
-/// gained for a `dwell` by then with 1 m/s^2 at most, and for as many choices of the brake, none of which is
-/// right: they drive it with the force of the stop.
+/// Each of two motors gets the command of the other. No single motor explains the motion, and forward the
+/// base goes as it should. The guard stops the base when it is far faster than allowed: by 0.2 m/s, or twice
+/// the 0.15 m/s. By then the base has gained speed for a `dwell` with 1 m/s^2 at most. It gains more during
+/// the choices of the brake, 6 x 0.04 s. None of them is right: they drive the base with the force of the
+/// stop.
 TEST(Wiring, TwoMotorsInEachOthersPlaceAreNotDrivenOn) {
   for (const auto& [task, robot] : {std::pair{"obstacle.yaml", "omni"},
                                     {"wall_align.yaml", "omni"},

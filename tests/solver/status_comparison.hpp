@@ -81,7 +81,7 @@ class StatusOracle {
     }
     return false;
   }
-  /// The same of a motor.
+  /// Whether a motor may be at its limit, or may have been when the row's level was solved.
   bool may_motor_hold(int level) const { return motor_ != Bound::free || (level < lowest_ && has_limits_); }
 
   Statuses of_sum(std::size_t i) const {

@@ -55,9 +55,9 @@ class Probe {
   const AxisFigures* figures(const PlannedAxis& axis);
   /// How many of the rows along the axes are independent, on the ground and in general position.
   int rank(const std::vector<const PlannedAxis*>& axes);
-  /// The same without the ground and the joints: of the bodies' own coordinates.
+  /// The rank without the ground and the joints: of the bodies' own coordinates.
   int kinematic_rank(const std::vector<const PlannedAxis*>& axes);
-  /// The same at the start pose alone.
+  /// The rank on the ground at the start pose alone.
   int rank_at_start(const std::vector<const PlannedAxis*>& axes);
   /// 1 where both axes are one motion, -1 where one is the other turned around, else 0.
   int alignment(const PlannedAxis& a, const PlannedAxis& b);
