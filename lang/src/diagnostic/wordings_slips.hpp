@@ -96,8 +96,8 @@ Diagnostic urdf_for_robot_file(const Span& span);
 
 /// `written` with the unit that quantities of `expected` usually have, where it lacks one: `20` as `20 deg`.
 std::string with_unit(const std::string& written, const Dimension& expected);
-/// Lines of a group, from `key` on, that stand in the column of the groups' names; `group` is the name above
-/// them, empty: there is none.
+/// Lines of a group, from `key` on, that stand in the column of the groups' names. `group` is the name above
+/// them. Empty: there is none.
 Diagnostic not_indented(const Span& span, const std::string& key, const std::string& group);
 /// Lines of a task, from `key` on, that stand in the column of the tasks' names. `task` is the name above
 /// them.

@@ -1,5 +1,5 @@
-// W607: a range of positions, or a region, that asks for more braking force than the motors have, or for one
-// that none of them has.
+// W607: a range of positions, or a region, that asks for more braking force than the motors have. It may also
+// ask for a force along an axis on which no motor pushes.
 //
 // A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's, else its
 // `stop`. The axis's force range over the effective mass bounds it. It uses

@@ -39,9 +39,9 @@ struct Pressed {
 /// at other headings.
 ///
 /// Nobody knows from where the robot comes to an object beside it. So a distance to the object is probed in
-/// several directions: the base's x, y and both diagonals, and the two directions of least and of most mass.
-/// It is also probed where two acceleration ranges bind at once. The masses between `least_mass` and
-/// `most_mass` are those of all directions, the forces those of the directions named.
+/// several directions. They are the base's x, y and both diagonals, and those of least and of most mass. It
+/// is also probed where two acceleration ranges bind at once. The masses between `least_mass` and `most_mass`
+/// are those of all directions, the forces those of the directions named.
 ///
 /// A file may be hostile, and validating it must end. So every look costs, and past the budget nothing is
 /// answered any more.
@@ -90,8 +90,8 @@ class Probe {
   solver::Vector3 direction(const PlannedAxis& axis) const;
   /// Whether the axis points up or turns the base over: what the ground itself holds.
   bool is_out_of_plane(const PlannedAxis& axis) const;
-  /// How far apart in height the two points of a distance are as long as the base moves; 0 where an arm or a
-  /// signal may change that. [m]
+  /// The difference in height [m] between the two points of a distance while the base moves. 0: an arm or a
+  /// signal may change it.
   double kept_height(const PlannedAxis& axis) const;
 
  private:

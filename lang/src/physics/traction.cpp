@@ -54,8 +54,8 @@ double grip(const Robot& robot, const Footing& footing, const Vector3& axis) {
   return held > rounding * footing.weight ? held : 0.0;
 }
 
-/// The force [N] that a position driver asks for while it is far off: all that the ranges in force leave it.
-/// 0: only the motors bound it.
+/// The force [N] that a position driver asks for while it is far off. The ranges in force bound it. 0: only
+/// the motors bound it.
 double asked_from_afar(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures) {
   double most = 0.0;
   for (const double sign : {1.0, -1.0}) {

@@ -1,6 +1,7 @@
 /// Wheels that nearly stand where the ground's directions depend on each other, put where they do exactly.
 ///
-/// A plain wheel at P with its axis along a lets the base's planar twist V = (vx, vy, w) no motion along a:
+/// A plain wheel stands at P with its axis along a. So the base's planar twist V = (vx, vy, w) has no motion
+/// along a:
 ///   (a, P x a) . V = 0.
 /// Two wheels on one axle say this twice, and the base keeps two motions. A wheel 13 um or 0.05 deg beside
 /// the axle says something else, in exact arithmetic: the base could only drive ahead. A drawing is rounded,

@@ -1,5 +1,5 @@
-// The arms' points p_i (origins of links, corners of what collides) shall lie above the outline, and no motor
-// shall hold more than half of what it can. The posture q minimises, joint by joint over its travel,
+// The arms' points p_i (origins of links, corners of what collides) shall lie above the outline. No motor
+// shall hold more than half of its limit. The posture q minimises, joint by joint over its travel,
 //
 //   sum d_i^2 + sum h_i^2 + w sum max(0, |t_j| / t_j,max - 1/2)^2 + e sum q_j^2
 //

@@ -1,5 +1,5 @@
-// W611. The rate qd of a wheel of radius R, where V = v + w x p is the velocity over the ground of the point
-// where the wheel stands:
+// W611. The rate qd of a wheel of radius R. V = v + w x p is the velocity over the ground of the point where
+// the wheel stands:
 //
 //   fixed wheel           qd = u'V / (R u'e)        and a'V = 0 where it holds sideways
 //   wheel on a swivel     qd = |V| / R              once it points along the motion

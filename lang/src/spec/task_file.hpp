@@ -188,7 +188,7 @@ bool is_rotation(solver::Axis axis);
 /// The dimension of a statement about `quantity` of the axis.
 Dimension dimension_of(solver::Axis axis, solver::Quantity quantity);
 
-/// The shape of a task file: keys, kinds, quantities with units. nullopt when it is not one at all; parts
+/// The shape of a task file: keys, kinds, quantities with units. nullopt: it is no task file at all. Parts
 /// with errors are left out or marked bad.
 std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics);
 

@@ -38,8 +38,8 @@ struct JointFriction {
 
 /// Where a robot file gives no `control_period`. [s]
 inline constexpr double default_control_period = 1e-3;
-/// The longest: limits brake within a horizon of as much, and what brakes to them within h loses dt / h of
-/// its excess from tick to tick. [s]
+/// The longest control period [s]. Limits brake within a horizon h of the same length. An axis that brakes to
+/// a limit within h loses dt / h of its excess from tick to tick.
 inline constexpr double longest_control_period = 10e-3;
 inline constexpr double shortest_control_period = 0.1e-3;
 
@@ -76,8 +76,8 @@ struct Feels {
   static constexpr double moment_arm = 0.1;
 };
 
-/// The commands that the motors' drive takes, and its delay. The delay covers an encoder's value on its way
-/// to the runtime and the command on its way back to the wheel, half of it each.
+/// The commands that the motors' drive takes, and its delay. Half of the delay is an encoder's value on its
+/// way to the runtime. The other half is the command on its way to the wheel.
 struct Drive {
   bool takes_velocity = false;  ///< false: torques
   bool takes_twist = false;     ///< of the base; false: velocities of the wheels
