@@ -1,5 +1,5 @@
-// The parts of a URDF beside the driven wheels: casters of several links, small stiff wheels, wheels without
-// motors, and marks that weigh next to nothing.
+// The parts of a URDF beside the driven wheels. They are casters of several links, small stiff wheels, wheels
+// without motors, and marks that weigh next to nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

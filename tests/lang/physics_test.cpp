@@ -236,7 +236,7 @@ TEST_F(FeaturePhysics, a_distance_is_asked_along_its_line_and_in_other_direction
   expect_number(only_outside("W606", push(force * 0.999), push(force * 1.001)), "100 N at most");
 }
 
-/// One newton along e accelerates the point p of the base along e by e' W e, W = [1/m + py^2/I, -px py/I; .,
+/// One newton along e accelerates the point p of the base along e by e' W e. W is [1/m + py^2/I, -px py/I; .,
 /// px^2/I]. Over all directions the mass lies between the inverses of W's eigenvalues.
 TEST_F(FeaturePhysics, a_distance_meets_every_mass_that_a_direction_has) {
   const double px = 0.3, py = 0.2;

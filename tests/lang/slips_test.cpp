@@ -1,5 +1,5 @@
-// Odd files that hands, editors and word processors make: each is accepted as what it plainly is, or refused
-// once, in its place, with what to write instead.
+// Odd files that hands, editors and word processors make. Each file is accepted with its plain meaning, or
+// refused once, in its place, with the text to write instead.
 #include <gtest/gtest.h>
 
 #include "support.hpp"

@@ -274,8 +274,8 @@ TEST(HotReload, AHalfWrittenFileIsRefusedOrWholeInItself) {
   std::printf("half-written: %d of %d refused\n", refused, refused + read);
 }
 
-/// The controller's robot with another mass, inertia and centre of mass than the plant's: in a folder of its
-/// own, the first body of the URDF changed.
+/// The controller's robot has another mass, inertia and centre of mass than the plant's. It has a folder of
+/// its own, with the first body of the URDF changed.
 class WrongRobot {
  public:
   WrongRobot(double scale, double ahead) {

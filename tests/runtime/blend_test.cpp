@@ -255,8 +255,8 @@ TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
   }
 }
 
-// Where it leaves it stays whole in the sets that had it, and asks for what it has always asked for, though
-// it had only half entered.
+// A range that leaves stays whole in the sets that had it. Its demand stays the same, though it had only half
+// entered.
 TEST(Blend, ARangeThatLeavesStaysInTheSetsThatHadIt) {
   const double speed = 0.5, limit = 0.3, horizon = 0.010;
   AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
@@ -435,8 +435,8 @@ TEST(Blend, GoingBackInTheMiddleOfABlendTakesOverWhatIsThere) {
   EXPECT_EQ(last, 1.0);
 }
 
-// A value of `always` that the switch sets changes with the blend, as a task's does; one that stays is in all
-// sets as it is now.
+// A value of `always` that the switch sets changes with the blend, as a task's does. A value that stays is in
+// all sets as it is now.
 TEST(Blend, WhatASwitchSetsOfAlwaysIsBlended) {
   lang::Program p = switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
                               task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}), 0.1);

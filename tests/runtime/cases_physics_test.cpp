@@ -442,8 +442,8 @@ lang::Program without_ranges(lang::Program program) {
   return program;
 }
 
-/// Whether nothing but the switch moves what is commanded: nobody has just seen the partner anew, and nothing
-/// throws the base harder than its motors do.
+/// Whether only the switch changes the commands. The partner has not just been seen anew, and nothing throws
+/// the base harder than its motors do.
 bool is_quiet(const Sensed& sensed, const Truth& truth, std::vector<double>& stamps) {
   bool is_new = false;
   stamps.resize(sensed.signals.size(), -1.0);

@@ -1,5 +1,5 @@
-// Every drive that ships, model against plant: torques that the solver finds for sine demands, with no
-// feedback at all, accelerate the simulated base as demanded.
+// Every drive that ships, model against plant. The solver finds torques for sine demands. Without any
+// feedback they accelerate the simulated base as demanded.
 #include <gtest/gtest.h>
 
 #include <cmath>

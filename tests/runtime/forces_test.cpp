@@ -1,5 +1,5 @@
-// Drivers that follow a force or add up their error, on a base whose dynamics are derived apart from the
-// library; and the forces that conditions ask for.
+// Drivers that follow a force or add up their error, and the forces that conditions ask for. The base's
+// dynamics are derived apart from the library.
 #include <gtest/gtest.h>
 
 #include <cmath>

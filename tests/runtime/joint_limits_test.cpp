@@ -1,5 +1,5 @@
-// The travel and the speed of an arm's joints, on a plant whose joints have no end stops: what keeps a joint
-// inside is the guard alone.
+// The travel and the speed of an arm's joints. The plant's joints have no end stops: only the guard keeps a
+// joint inside.
 #include <gtest/gtest.h>
 
 #include <cmath>

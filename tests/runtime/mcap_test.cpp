@@ -1,5 +1,5 @@
-// The MCAP log: every number comes back bit by bit, and whatever happens to the file, the reader gets what is
-// whole and says what is not.
+// The MCAP log: every number comes back bit by bit. If the file is damaged, the reader gets the whole parts
+// and names the damaged ones.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -304,8 +304,8 @@ TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
   }
 }
 
-/// A soft wall gives back what was pressed into it, with a force that hardly slackens over the way that a
-/// base needs to get too fast.
+/// A soft wall gives back its energy. Its force hardly slackens over the way that a base needs to get too
+/// fast.
 TEST(SoftWall, IsNoRunawayOfAnOmniBaseAsItGivesBack) {
   for (const double yaw : {-15.0, -10.0, -5.0, 5.0, 10.0, 15.0}) {
     const Pressing pressing("omni", {.stiffness = 1e3, .friction = 0.15, .yaw = yaw * degree});

@@ -208,8 +208,8 @@ TEST(ContactDepth, OfWhatSlidesEndsAtTheDeepestContact) {
 }
 
 TEST(ContactDepth, OfAHitThatIsAllDampingIsKeptUntilItsSpringIsQuiet) {
-  // A unit mass runs into K s + c v at 0.5, K = 30 and c = 25: at first it feels 12.5, at the deepest 0.47,
-  // and then it is let out slowly. A tenth of 12.5 is more than the spring ever has.
+  // A unit mass runs into K s + c v at 0.5, K = 30 and c = 25. At first it feels 12.5, at the deepest 0.47.
+  // Then it is let out slowly. A tenth of 12.5 is more than the spring ever has.
   constexpr double k = 30.0, c = 25.0, dt = 1e-3;
   const solver::FreeMotions motions(load("mecanum").robot.model);
   ContactDepth contact(load("mecanum").robot, dt);

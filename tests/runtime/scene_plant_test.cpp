@@ -101,8 +101,8 @@ TEST(ScenePlant, PoseSignalsAreSeenFromTheirFrame) {
   EXPECT_FALSE(sensed.signals[1].valid) << "nobody measures it";
 }
 
-// A dock at the near face of a box whose origin lies 1.7 m behind the base: its x axis points on into the
-// box, as the hook's does.
+// A dock at the near face of a box whose origin lies 1.7 m behind the base. The dock's x axis points on into
+// the box, as the hook's does.
 TEST(ScenePlant, OfAnObjectWithADockTheSocketIsSeen) {
   const lang::Program program = program_with(R"(objects:
   dock:

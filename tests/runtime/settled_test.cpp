@@ -18,8 +18,8 @@ lang::Group at_level_zero(lang::Group group) {
   return group;
 }
 
-/// Values from parameters and from a signal, a range of places whose braking hangs on the yaw, and edges that
-/// come into reach and go out of it.
+/// The program has values from parameters and from a signal. The braking of a position range hangs on the
+/// yaw. Edges come into reach and go out of it.
 lang::Program course() {
   AxisStatements x = drive("go.x", Axis::x, Quantity::velocity, 0.0);
   x.target.parameter = 0;

@@ -142,8 +142,8 @@ TEST(Wiring, RatesInAnotherUnitStopTheBase) {
   }
 }
 
-/// On a base with more wheels than freedoms the others tell; where there are as many, the motor turns the
-/// wrong way by all that is known.
+/// On a base with more wheels than freedoms the other encoders show the mistake. On a base with as many, all
+/// signs tell that the motor turns the wrong way.
 TEST(Wiring, AnEncoderThatCountsTheOtherWayRoundStopsTheBase) {
   struct {
     const char *task, *robot;
@@ -170,9 +170,9 @@ TEST(Wiring, AReversedEncoderIsNamed) {
   EXPECT_EQ(run.signal.substr(run.signal.size() - 3), ".qd");
 }
 
-/// The sign of all torques, or of all encoders: the base speeds up against its own brake. Found by the first
-/// torques, 0.04 s and what the observer is late by after they count, at a speed of 0.5 m/s^2 for 0.1 s at
-/// most.
+/// The sign of all torques, or of all encoders: the base speeds up against its own brake. The first torques
+/// show the mistake, 0.04 s and the observer's delay after they count. The speed is then at most 0.5 m/s^2
+/// for 0.1 s.
 TEST(Wiring, MotorsThatAllTurnTheOtherWayStopTheBase) {
   const Mistake torques{.sent = [](Eigen::VectorXd& tau) { tau = -tau; }};
   const Mistake encoders{.sensed = [](solver::State& state) {
