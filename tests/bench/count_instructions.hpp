@@ -1,5 +1,5 @@
-/// What callgrind counts in a call of a program of ours; nothing where valgrind is not installed. Counts do
-/// not depend on what else the machine does.
+/// Callgrind's instruction count of a call of a program of ours. nullopt: valgrind is not installed. Counts
+/// do not depend on the machine's load.
 #pragma once
 
 #include <cstdio>

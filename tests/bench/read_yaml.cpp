@@ -1,4 +1,4 @@
-// What validating is measured against: the same libraries are linked, and yaml-cpp reads the file.
+// The baseline of the validation benchmark: the same libraries are linked, and yaml-cpp reads the file.
 #include <yaml-cpp/yaml.h>
 
 int main(int argc, char** argv) {

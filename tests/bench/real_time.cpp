@@ -84,7 +84,7 @@ RealTimeRun run_in_real_time(const lang::Program& program, const std::vector<run
   // The runner's lists come from fresh pages: in used ones a fault would not show.
   ::mallopt(M_MMAP_THRESHOLD, smallest_list);
   runtime::Runner runner(program, {.period = 1e-3});
-  // Pages stay once they were touched. What was never touched is not mapped by this, so that a fault shows.
+  // Touched pages stay mapped. The call does not map untouched pages, so that their page faults show.
   run.has_locked_pages = ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
   std::thread(loop, std::cref(samples), std::ref(runner), std::ref(run)).join();
   if (run.has_locked_pages) ::munlockall();

@@ -1,10 +1,10 @@
-// What one call of the solver costs, beside its peers: `solver_table`, or `./dev bench`.
+// The cost of one call of the solver, beside its peers: `solver_table`, or `./dev bench`.
 //
-// Google Benchmark times the calls: repetitions of all of them in a random order, on one core, so that what
-// else the machine does falls on all alike. A ratio is that of two medians of one run. Outside the timed
-// part: building models, workspaces and states. Instruction counts (callgrind, where valgrind is installed)
-// do not depend on the machine's mood at all: two runs of different length, and their difference. Goals are
-// judged by counts where there are any, by times else; `solver_table` fails where one is missed.
+// Google Benchmark times the calls, in repetitions of all of them in a random order, on one core. So other
+// load of the machine falls on all alike. A ratio is that of two medians of one run. Outside the timed part:
+// building models, workspaces and states. Instruction counts (callgrind, where valgrind is installed) do not
+// depend on the machine's load: they are the difference of two runs of different length. Goals are judged by
+// counts where there are any, by times else; `solver_table` fails where one is missed.
 #include <benchmark/benchmark.h>
 #include <sched.h>
 

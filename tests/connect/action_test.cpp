@@ -1,6 +1,6 @@
 // The action's server between payloads. The layouts are those of action_msgs and of rosidl's generated
-// services: SendGoal is UUID and goal, answered by accepted and a time; GetResult is UUID, answered by status
-// and result.
+// services. SendGoal is UUID and goal; its answer is accepted and a time. GetResult is UUID; its answer is
+// status and result.
 #include "action.hpp"
 
 #include <gtest/gtest.h>

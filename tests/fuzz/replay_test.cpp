@@ -1,4 +1,4 @@
-// What the fuzzer starts from and what it once found, given to the same targets: a find stays mended.
+// The fuzzer's seeds and its former finds, given to the same targets: a fixed find stays fixed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// What is fuzzed: each target takes any bytes and gives them to one reader. A law that does not hold aborts.
+/// The fuzzer's targets. Each target takes any bytes and gives them to one reader. A broken property aborts.
 #pragma once
 
 #include <string>

@@ -48,7 +48,7 @@ void load_as_named(const std::filesystem::path& path, Diagnostics& diagnostics) 
   EXPECT_EQ(is_good, !diagnostics.has_errors());
 }
 
-/// What the command line would print with --notes; `ok` for a file without remarks.
+/// The output of the command line with --notes; `ok` for a file without remarks.
 std::string said_about(const std::string& name) {
   Diagnostics diagnostics;
   // Relative, so that the expectations hold in any folder.

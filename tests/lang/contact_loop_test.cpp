@@ -22,7 +22,8 @@ Drive drive(double rate, double delay, Feels::By by) {
   return drive;
 }
 
-/// What is left after `seconds` of a wall that was pressed in by 1, as a kilogram on its drive has it.
+/// The remaining depth after `seconds`, by simulation of one kilogram on its drive. It starts at a depth of 1
+/// in the wall.
 double left_after(double seconds, const Drive& drive, const VirtualMass& led, double K) {
   constexpr double step = 1e-4;
   const double filter = felt_filter(drive) + drive.feels.filter;
@@ -58,7 +59,7 @@ TEST(ContactLoop, ARobotThatIsChosenComesToRestAtEveryWall) {
   }
 }
 
-/// One that is as heavy as the real robot, and has no damping, swings.
+/// A virtual robot as heavy as the real one, with hardly any damping, swings.
 TEST(ContactLoop, WhatIsNotStableInTimeHasNoPeak) {
   const Drive of = drive(50.0, 20e-3, Feels::By::wrench);
   const VirtualMass light{1.0, 0.1};

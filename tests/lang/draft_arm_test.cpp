@@ -99,8 +99,8 @@ TEST(DraftOfAnArm, tells_of_a_motor_that_cannot_hold_it) {
   EXPECT_EQ(drafted_from(with_shoulder(-1.0, 1.0, 1.5), leaned).said, "");
 }
 
-// Wheels that slide sideways, on rockers that are turned by pi, rounded to four digits: what is left of their
-// direction sideways is no grip that a stop could keep to.
+// Wheels that slide sideways, on rockers that are turned by pi, rounded to four digits. The rounding leaves a
+// small part of their direction sideways. This part is no grip that a stop could keep to.
 TEST(DraftOfABase, on_turned_rockers_is_told_of_no_grip_that_rounding_leaves) {
   UrdfText urdf(4, 1.0);
   urdf.add(LinkShape{"base_link", 10.0, {}, {0.2, 0.3, 0.4}, urdf.box(0.4, 0.3, 0.1)});

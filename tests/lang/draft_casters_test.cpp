@@ -1,4 +1,4 @@
-// What stands beside the driven wheels of a URDF: casters of several links, small stiff wheels, wheels
+// The parts of a URDF beside the driven wheels. They are casters of several links, small stiff wheels, wheels
 // without motors, and marks that weigh next to nothing.
 #include <gtest/gtest.h>
 
@@ -148,7 +148,7 @@ TEST_F(DraftOfCasters, a_fork_that_reaches_ahead_is_told) {
       << why_unfit("wall_align", fit);
 }
 
-// What a motor that slides is asked for is a force.
+// The draft asks for the force of a sliding joint's motor, not for a torque.
 TEST_F(DraftOfCasters, a_lift_is_asked_for_its_force) {
   const std::string lift =
       beside_part("lift", "base_link", "0 0 .1", "prismatic", beside_inertial("1", ".01"),

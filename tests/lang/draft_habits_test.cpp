@@ -1,4 +1,5 @@
-// What URDFs draw above a base, between joints and beside their axes, as the drafted robot file has it.
+// Habits of URDFs above a base, between joints and beside their axes, and their place in the drafted robot
+// file.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -64,7 +65,7 @@ std::string joint_between(const std::string& name, const std::string& type, cons
 
 const std::string massless_roots = "<link name='world'/><link name='odom'/><link name='base_footprint'/>";
 
-// What stands between world and base is what the base does by itself.
+// The joints between world and base are the base's own motion.
 TEST_F(DraftOfHabits, leaves_out_free_joints_above_the_base) {
   for (const char* type : {"floating", "planar"}) {
     const std::string urdf =

@@ -15,7 +15,7 @@ namespace {
 
 const std::filesystem::path real = test::source_dir / "../shared/robots";
 
-/// What a user would write in the open places.
+/// The text that a user would write in the open places.
 std::string filled(std::string text) {
   const std::pair<const char*, const char*> values[] = {
       {"radius: FILL_IN", "radius: 60 mm"},

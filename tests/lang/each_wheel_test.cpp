@@ -87,8 +87,8 @@ std::string turned_rectangle(double angle) {
   return urdf + "</robot>";
 }
 
-// Which wheels lie on a diagonal is a matter of where they roll to: a base that looks along y has the
-// rollers of one that looks along x.
+// The rolling direction decides which wheels lie on a diagonal. A base that looks along y has the same
+// rollers as one that looks along x.
 TEST(EachWheel, of_kind_mecanum_has_the_same_rollers_whichever_way_the_base_looks) {
   const test::Folder folder;
   const std::string text =

@@ -126,7 +126,7 @@ TEST(Editing, TheNamesOfAProgramAreGivenInItsText) {
   }
 }
 
-/// What a place of the text is completed with, by the names that the text itself gives.
+/// The completions at a place of the text, with the names that the text itself gives.
 std::vector<std::string> completed(const std::string& text, const std::string& before) {
   test::Folder folder;
   Diagnostics diagnostics;

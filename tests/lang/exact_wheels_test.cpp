@@ -1,5 +1,5 @@
-// Wheels that are drawn a little beside their axle. The oracle is the robot whose wheels are drawn exactly:
-// what it can do does not change, and its apparent masses and largest forces change as little as the drawing.
+// Wheels that are drawn a little beside their axle. The oracle is the robot whose wheels are drawn exactly.
+// The freedoms are the same. The apparent masses and largest forces differ as little as the drawing.
 #include "robot/exact_wheels.hpp"
 
 #include <gtest/gtest.h>

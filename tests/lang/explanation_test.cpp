@@ -97,8 +97,8 @@ TEST(Explanations, each_page_has_a_golden_text) {
   }
 }
 
-/// What nearly shows it and must not: the mended example, a file at the limit, or one in tests/conformance
-/// that is good and bears the code in its name.
+/// A near miss is a file that nearly shows the code and must not. It is the fixed example, a file at the
+/// limit, or a good file in tests/conformance with the code in its name.
 TEST(Explanations, each_page_has_a_near_miss) {
   std::string names;
   for (const auto& file : fs::directory_iterator(test::source_dir / "tests/conformance")) {
@@ -190,7 +190,7 @@ std::string urdf(std::string_view excerpt) {
   return text.replace(begin, end - begin, excerpt);
 }
 
-/// What is said about an excerpt.
+/// The diagnostics of an excerpt.
 Diagnostics said_about(ExcerptOf part, std::string_view excerpt, bool with_notes) {
   const auto load_as_wanted = with_notes ? load_with_notes : load;
   const test::Folder folder;

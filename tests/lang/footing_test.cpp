@@ -76,8 +76,8 @@ TEST(Footing, WithoutSupportsTwoWheelsStandOnTheFootprint) {
   EXPECT_NEAR(footing->inside, 0.2, 1e-9);
 }
 
-// The mass above the axle: the wheels may carry it all. 0.1 m ahead of it, the corners ahead, 0.3 m off,
-// carry a third at least; and the corners alone could carry it all.
+// A mass above the axle: the wheels may carry it all. A mass 0.1 m ahead of the axle: the corners 0.3 m ahead
+// of it carry a third at least. The corners alone could carry it all.
 TEST(Footing, LoadsThatStaticsDoesNotKnowAreBounded) {
   const std::vector<double> wheels{1.0, 1.0, 0.0, 0.0, 0.0, 0.0}, corners{0.0, 0.0, 1.0, 1.0, 1.0, 1.0};
   const auto above = footing_with("0 0 0.1", ""), ahead = footing_with("0.11 0 0.1", "");

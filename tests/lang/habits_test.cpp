@@ -1,4 +1,4 @@
-// What authors write who know other programs: each habit is told once, with the word that zwang has for it.
+// Habits that authors bring from other programs. Each one is told once, with the word that zwang has for it.
 #include <gtest/gtest.h>
 
 #include "support.hpp"
@@ -422,7 +422,7 @@ void PrintTo(const Habit& habit, std::ostream* out) {
 
 class HabitOf : public testing::TestWithParam<Habit> {
  protected:
-  /// What is said of all files, `habit` in one of them.
+  /// The diagnostics of all files, with `habit` in one of them.
   Diagnostics said_about(const Habit& habit) {
     const auto put = [&](const std::string& kind, const std::string& name, const std::string& text) {
       return folder_.write(name, kind == habit.file ? test::replaced(text, habit.from, habit.to) : text);

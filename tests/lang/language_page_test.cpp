@@ -1,6 +1,6 @@
-// docs/language.md is true: each block of it is good, or is refused in the words of the page, and no key of
-// the schemas is missing. A block says after its language what it is cut from; what it leaves out is supplied
-// here.
+// docs/language.md is true. Each block of it is accepted, or is refused in the words of the page. No key of
+// the schemas is missing. A block names its part of a file after its language. The rest of the file is
+// supplied here.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -32,7 +32,7 @@ TEST_P(DraftCases, are_accepted_without_a_remark) {
   if (!has_cases()) GTEST_SKIP() << "the draft cases are not here";
   Diagnostics diagnostics;
   EXPECT_TRUE(load_case(GetParam(), diagnostics)) << rendered(diagnostics);
-  // The draft of the hospital asks for a pause 0.34 m later than its base can stop, and three of them limit
+  // The draft of the hospital asks for a pause 0.34 m later than its base can stop. Three of the drafts limit
   // the acceleration in the plane by a range on each axis.
   for (const Diagnostic& d : diagnostics.all())
     EXPECT_TRUE(d.code == "W620" || d.code == "W641") << rendered(diagnostics);

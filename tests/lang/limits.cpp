@@ -69,8 +69,8 @@ Files with_nodes(const std::string& name, int nodes) {
 
 /// A template whose body has so many keys, values, lists and maps.
 std::string template_of(const std::string& name, int nodes) {
-  // The map, the timeout's key and its map of four, the key and the list of the exits; an exit is a map of
-  // four, with a note of six.
+  // The map, the timeout's key and its map of four, the key and the list of the exits. An exit is a map of
+  // four nodes, or of six with a note.
   const int left = nodes - 1 - 6 - 2;
   int exits = left / 5;
   while ((left - 5 * exits) % 2 != 0) --exits;

@@ -81,8 +81,8 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   EXPECT_EQ(hold.exits[0].target.kind, TargetKind::done);
 }
 
-/// 30 N brake the real base with 30 N / 57 kg = 0.5 m/s^2, and one that is led by a virtual robot of eight
-/// times its mass with 0.07 m/s^2: 2.7 m from 0.6 m/s.
+/// 30 N brake the real base with 30 N / 57 kg = 0.5 m/s^2. A base that is led by a virtual robot of eight
+/// times its mass brakes with 0.07 m/s^2: it needs 2.7 m from 0.6 m/s.
 TEST(Hospital, warns_a_base_that_feels_late_that_it_stops_too_late) {
   for (const auto& [robot, told] :
        {std::pair{"mecanum_base", 0}, std::pair{"feels/mecanum_wrench_50_hz", 1}}) {

@@ -1,5 +1,5 @@
-// Mistakes that authors make, one at a time, in task files that are good without them: each is found where it
-// was made, and told once.
+// Mistakes that authors make, one at a time, in task files that are good without them. Each one is found
+// where it was made, and told once.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The physical diagnostics against formulas of the robot's own figures: each is silent just inside its bound
-// and speaks just outside, and the numbers that it tells are the formula's.
+// The physical diagnostics against formulas of the robot's own figures. Each one is silent just inside its
+// bound and appears just outside. Its numbers are the formula's.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,9 +12,9 @@
 namespace zwang::lang {
 namespace {
 
-// tests/conformance/robots/mini: a chassis of 20 kg and 0.8 kg m^2 about the middle of the axle, two wheels
-// of 1 kg with 0.001 kg m^2 about the vertical and 0.002 kg m^2 about their axles, 0.2 m to the side, motors
-// of 5 N m.
+// tests/conformance/robots/mini: a chassis of 20 kg and 0.8 kg m^2 about the middle of the axle. Two wheels
+// of 1 kg stand 0.2 m to the side, with motors of 5 N m. A wheel has 0.001 kg m^2 about the vertical and
+// 0.002 kg m^2 about its axle.
 constexpr double radius = 0.1, half_track = 0.2, spin = 0.002;
 constexpr double mass = 20.0 + 2.0 * 1.0 + 2.0 * spin / (radius * radius);
 constexpr double inertia = 0.8 + 2.0 * (0.001 + 1.0 * half_track * half_track) +
@@ -38,7 +38,7 @@ class Physics : public testing::Test {
     }
   }
 
-  /// What is said about a task whose one group moves `move` in `in` with these axes.
+  /// The diagnostics of a task whose one group moves `move` in `in` with these axes.
   Diagnostics said(const std::string& axes, const std::string& when = "elapsed > 2 s",
                    const std::string& move = "base_link", const std::string& in = "base_link") {
     const std::string text =
@@ -202,7 +202,7 @@ TEST_F(Physics, a_boundary_brakes_with_its_share_of_the_acceleration) {
                said(axes(a * 1.001), "elapsed > 2 s", "base_link", "world"));
 }
 
-/// What is said about a group on a feature.
+/// The diagnostics of a group on a feature.
 class FeaturePhysics : public Physics {
  protected:
   Diagnostics said_of(const std::string& feature, const std::string& statements, const std::string& more = "",
@@ -236,8 +236,8 @@ TEST_F(FeaturePhysics, a_distance_is_asked_along_its_line_and_in_other_direction
   expect_number(only_outside("W606", push(force * 0.999), push(force * 1.001)), "100 N at most");
 }
 
-/// The point p of the base goes along e with e' W e per newton, W = [1/m + py^2/I, -px py/I; ., px^2/I]: over
-/// all directions the mass lies between the inverses of W's eigenvalues.
+/// One newton along e accelerates the point p of the base along e by e' W e. W is [1/m + py^2/I, -px py/I; .,
+/// px^2/I]. Over all directions the mass lies between the inverses of W's eigenvalues.
 TEST_F(FeaturePhysics, a_distance_meets_every_mass_that_a_direction_has) {
   const double px = 0.3, py = 0.2;
   const double xx = 1.0 / mass + py * py / inertia, yy = px * px / inertia, xy = -px * py / inertia;
@@ -340,8 +340,8 @@ TEST_F(Physics, a_planar_speed_bounds_the_first_hit) {
   only_outside("N603", said(axes(v * 0.999)), said(axes(v * 1.001)));
 }
 
-/// tests/conformance/robots/casters: 20 kg on two units; of each the swivel weighs 1 kg and 2 g m^2, a wheel
-/// 0.5 kg, 0.6 g m^2 about its axle and 0.3 g m^2 about the vertical.
+/// tests/conformance/robots/casters: 20 kg on two units. The swivel of a unit has 1 kg and 2 g m^2. A wheel
+/// has 0.5 kg, 0.6 g m^2 about its axle and 0.3 g m^2 about the vertical.
 TEST_F(Physics, a_push_over_casters_is_capped_between_two_masses) {
   for (const char* name : {"casters.urdf", "casters.yaml"}) {
     folder_.write(std::string("robots/") + name,

@@ -1,4 +1,5 @@
-// What was found, as other programs read it: one line each, JSON for editors, SARIF for code scanning.
+// Diagnostics in the forms that other programs read: one line each, JSON for editors, SARIF for code
+// scanning.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -46,8 +47,8 @@ TEST(Reports, show_notes_when_asked) {
   EXPECT_EQ(json::parse(render_json(with_note(), {.notes = true})).size(), 1u);
 }
 
-/// The text of a file after the edits of one diagnostic, done as an editor would: the last one first, so that
-/// the places of the others stay.
+/// The text of a file after the edits of one diagnostic, done as an editor does. The last edit is done first,
+/// so that the places of the others stay.
 std::string edited(std::string text, const json& diagnostic) {
   const json& edits = diagnostic["edits"];
   for (std::size_t i = edits.size(); i > 0; --i) {

@@ -190,7 +190,7 @@ TEST(Scenario, parameters_are_those_of_the_task_file) {
 }
 
 TEST(Scenario, a_cell_that_is_refused_is_told_with_what_makes_it_so) {
-  // What moves weighs at most about 60 kg: with 0.3 m/s^2 it presses with 18 N at most.
+  // The moving mass is about 60 kg at most: with 0.3 m/s^2 it presses with 18 N at most.
   const std::string task = test::replaced(test::slurp(test::source_dir / "specs/wall_align.yaml"),
                                           "{force: $push,", "{acceleration: +-0.3 m/s^2, force: $push,");
   const test::Folder folder;

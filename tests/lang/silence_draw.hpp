@@ -69,7 +69,7 @@ struct Kind {
   std::function<std::string(Dice&, bool)> draw;
 };
 
-/// What regions, places, times and people have to do with.
+/// The kinds of faults that concern regions, places, times and people.
 std::vector<Kind> kinds_of_places();
 
 }  // namespace zwang::lang::silence

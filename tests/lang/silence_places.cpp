@@ -96,8 +96,8 @@ std::string beyond_the_motors(Dice& d, bool fault) {
                    "", "{after: 5 s, goto: done}"));
 }
 
-/// As `late_guard`, at `done` with the robot's own stop of 1 m/s^2; beside the distance something that is
-/// true on the way, or a distance to a person.
+/// As `late_guard`, at `done` with the robot's own stop of 1 m/s^2. Beside the distance stands a condition
+/// that is true on the way, or a distance to a person.
 std::string late_joint_guard(Dice& d, bool fault) {
   const double v = d.number(0.2, 0.8), way = v * (0.1 + 0.2) + v * v / 2.0;
   const double asked = 0.4 + way * (fault ? d.number(0.3, 0.95) : d.number(1.05, 1.5));

@@ -1,5 +1,5 @@
-// No silence: task files that read well and cannot work, drawn with one fault each, are told with the code of
-// that fault; as many sound ones, drawn by the same hand, get no word.
+// No silence: task files that read well and cannot work get the code of their fault. The files are drawn at
+// random, with one fault each. As many sound files, drawn in the same way, get no diagnostic.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace zwang::lang::silence {
 namespace {
 
-/// What the drawn files ask a mecanum base of 56.9 kg along x, and its limits of 1 m/s and 1 m/s^2.
+/// The effective mass [kg] along x of the mecanum base in the drawn files. Its limits are 1 m/s and 1 m/s^2.
 constexpr double mass = 56.9;
 
 /// Two ranges of one quantity, of the task and beside it or under `always`, apart or overlapping.

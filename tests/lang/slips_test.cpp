@@ -1,5 +1,5 @@
-// Odd files that hands, editors and word processors make: each is accepted as what it plainly is, or refused
-// once, in its place, with what to write instead.
+// Odd files that hands, editors and word processors make. Each file is accepted with its plain meaning, or
+// refused once, in its place, with the text to write instead.
 #include <gtest/gtest.h>
 
 #include "support.hpp"
@@ -163,7 +163,7 @@ TEST(Slips, other_line_ends_and_a_byte_order_mark_change_nothing) {
   expect_once(test::replaced(windows, "0.1 m/s", "0.1 N"), "E202", 7);
 }
 
-/// What an editor may write in the place of a value: what was there, in a unit that fits.
+/// An editor may replace a value by the same number in a unit that fits.
 TEST(Slips, what_is_offered_keeps_the_sign_the_size_and_the_dimension) {
   struct Offer {
     const char* axis;

@@ -1,5 +1,5 @@
-// The robots that ship: each does what its drive can do, by the table of wheeled bases of a textbook, and its
-// wheels turn by the textbook's formulas.
+// The robots that ship. The mobility of each drive is that of a textbook's table of wheeled bases. Its wheels
+// turn by the textbook's formulas.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -160,8 +160,8 @@ class RollingState {
   State state;
 };
 
-// Whichever rollers of a base on four mecanum wheels are mirrored, they are named; all four are told by the
-// lever with which they turn the base. Omni wheels mirror into themselves.
+// Any mirrored rollers of a base on four mecanum wheels are named. Four mirrored ones are told by the lever
+// with which they turn the base. Omni wheels mirror into themselves.
 TEST(SpecRobots, mirrored_rollers_are_named) {
   const test::Folder place;
   place.write("mecanum_base.urdf", test::slurp(folder / "mecanum_base.urdf"));

@@ -1,4 +1,4 @@
-/// What the tests of the front end share: texts as files, messages as text.
+/// Helpers of the front end's tests: texts as files, messages as text.
 #pragma once
 
 #include <filesystem>

@@ -26,7 +26,7 @@ TaskTexts drafted(const std::string& task, const BaseFit& fit) {
   return draft_task(task, texts, fit, "robot.yaml", "scene.yaml");
 }
 
-/// What is said of a task and scene that were drafted for a shipped robot.
+/// The diagnostics of a task and scene that were drafted for a shipped robot.
 std::string said_of(const std::string& task, const char* robot) {
   const test::Folder folder;
   const std::string urdf = std::string(robot) + ".urdf", file = std::string(robot) + ".yaml";
@@ -52,7 +52,7 @@ TEST(TaskDraft, of_every_use_case_is_good_for_the_bases_that_it_is_drafted_for) 
   EXPECT_GE(drafted_tasks, 18);
 }
 
-// What is refused by name is refused by the task's own check.
+// A base that the draft refuses by name is refused by the task's own check, too.
 TEST(TaskDraft, is_refused_for_a_base_that_the_task_would_refuse) {
   for (const auto& [robot, task, code] :
        {std::tuple{"skid_base", "wall_align", "E621"}, std::tuple{"skid_base", "obstacle", "E404"},
@@ -100,8 +100,8 @@ TEST(TaskDraft, presses_with_the_same_share_of_the_weight) {
   EXPECT_NE(drafted("wall_align", fit).task.find("value: 20 N, range: [5 N, 40 N]"), std::string::npos);
 }
 
-// The least push, 5 N, turns the base about the corner 0.296 m beside the middle: it is twice as strong as
-// what holds the heading on the way.
+// The least push, 5 N, turns the base about the corner 0.296 m beside the middle. Its moment is twice the one
+// that holds the heading on the way.
 TEST(TaskDraft, holds_the_heading_by_half_of_what_the_wall_turns_it_with) {
   const std::string task = drafted("wall_align", base_fit(shipped("diff_base"))).task;
   EXPECT_NE(task.find("rz: {velocity: 0 rad/s, force: +-0.74 N m}"), std::string::npos) << task;
@@ -180,7 +180,8 @@ TEST(TaskDraft, starts_less_askew_where_the_front_is_narrow) {
       << why_unfit("wall_align", fit);
 }
 
-// A mass d beside the origin turns a free base by m d s / I on its way of 0.5 m: 1 deg at m d = 0.0349 I / m.
+// A mass d beside the origin turns a free base by m d s / I on its way of s = 0.5 m. At m d = 0.0349 I / m
+// this is 1 deg.
 TEST(TaskDraft, holds_the_heading_of_a_base_that_its_mass_turns) {
   BaseFit fit = base_fit(shipped("mecanum_base"));
   ASSERT_EQ(fit.freedoms, Freedoms::all);

@@ -53,8 +53,8 @@ class TurnedJoints : public testing::Test {
   Diagnostics diagnostics_;
 };
 
-// Each way to hold a wheel drafts the differential base that the same URDF is with `continuous` joints: its
-// radius, its torques and what its base can do.
+// Each way to hold a wheel drafts the differential base that the same URDF is with `continuous` joints. The
+// radius, the torques and the freedoms of the base are the same.
 TEST_F(TurnedJoints, wheels_that_are_held_are_drafted_as_if_they_turned) {
   const RobotDraft free = draft(held_wheels("continuous", "<axis xyz='0 1 0'/>"));
   ASSERT_EQ(free.text.find("turns:"), std::string::npos) << free.text;

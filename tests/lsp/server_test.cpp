@@ -85,8 +85,8 @@ TEST(LanguageServer, FormatsAsFmtDoes) {
             json::array());
 }
 
-/// Each file of the golden suite with a fix: each fix is done alone, and what it was offered for is gone,
-/// with no error more than before.
+/// The files of the golden suite with a fix. Each fix is done alone. Then its diagnostic is gone, and there
+/// is no error more than before.
 TEST(LanguageServer, EveryQuickFixLeadsToABetterFile) {
   int fixed = 0;
   for (const auto& entry : fs::directory_iterator(conformance)) {

@@ -1,8 +1,8 @@
 // Orocos KDL's ChainHdSolver_Vereshchagin and our solver on the same fixed-base arms.
 //
-// KDL's conventions: the root accelerates by -gravity, and so does everything it speaks of, beta too; alpha
-// and the external wrenches have the base's axes and the link's own origin, linear part first; its nu is
-// minus ours.
+// KDL's conventions: the root accelerates by -gravity, and all its accelerations contain this term, beta too.
+// The external wrenches and alpha have the base's axes and the link's own origin. Their linear part comes
+// first. KDL's nu is minus ours.
 #include <gtest/gtest.h>
 
 #include <cmath>

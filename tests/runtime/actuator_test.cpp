@@ -83,8 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(b.robot) + "_" + b.wheel + kind;
     });
 
-/// Steady against the wall: joints stand, friction of the wheels is 0, so that what is left is the model's
-/// own error, the difference between the torques' wrench and the wall's.
+/// Steady against the wall the joints stand, and the wheels' friction is 0. So the rest is the model's own
+/// error: the difference between the torques' wrench and the wall's.
 TEST(EstimatedForce, OfASteadyPushIsThePlantsOwn) {
   for (const char* robot : {"mecanum", "omni", "diff"}) {
     const lang::Program program = shipped_program("wall_align.yaml", robot, "wall");
@@ -191,8 +191,8 @@ TEST(SensorBias, ThatATaskDoesNotAllowIsARefusalWithItsOwnCode) {
   EXPECT_EQ(runner.scheduler().tasks().at(refused).name, "approach");
 }
 
-/// A task file that changes under way: the new one takes over between two ticks without a jump of a torque;
-/// one that does not load is no program, and the old one runs on.
+/// A task file that changes under way. The new file takes over between two ticks without a jump of a torque.
+/// If the new file does not load, the old program runs on.
 TEST(HotReload, SwapsAtATickWithoutAJump) {
   const lang::Program drive = shipped_program("obstacle.yaml", "mecanum");
   lang::Program faster = drive;
@@ -274,8 +274,8 @@ TEST(HotReload, AHalfWrittenFileIsRefusedOrWholeInItself) {
   std::printf("half-written: %d of %d refused\n", refused, refused + read);
 }
 
-/// The controller's robot with another mass, inertia and centre of mass than the plant's: in a folder of its
-/// own, the first body of the URDF changed.
+/// The controller's robot has another mass, inertia and centre of mass than the plant's. It has a folder of
+/// its own, with the first body of the URDF changed.
 class WrongRobot {
  public:
   WrongRobot(double scale, double ahead) {

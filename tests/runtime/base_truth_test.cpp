@@ -1,4 +1,4 @@
-// What the plant says of a base: how it leans, speeds up and pushes.
+// The plant's measurements of a base: its lean, its acceleration and its push.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What a switch of tasks does to the sets of constraints in force, and to the force that the wheels are told
-// to make.
+// The effect of a switch of tasks on the sets of constraints in force, and on the commanded force of the
+// wheels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,8 +76,8 @@ TEST(Blend, TheSetBeforeAndTheNewOneAreBothWholeAndTheirSharesSumToOne) {
   EXPECT_EQ(c[0].driver->target, 0.2);
 }
 
-// What `always` says is in force from the first tick on: in the set that the run starts from, and in the new
-// one.
+// The constraints of `always` are in force from the first tick on: in the set that the run starts from, and
+// in the new one.
 TEST(Blend, AStartBlendsFromAlwaysAlone) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   a.blend.constant = 0.05;
@@ -232,8 +232,8 @@ std::vector<std::vector<solver::Row>> limits_of(Standing& bench) {
   return limits;
 }
 
-// A range that enters is on at once in both sets: of what is beyond it, it asks to be back when the blend is
-// over; what is inside feels it as always.
+// A range that enters is in force at once in both sets. An axis beyond the range has to be back when the
+// blend is over. An axis inside the range feels it without a blend.
 TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
   const double blend = 0.2, speed = 0.5, limit = 0.3, horizon = 0.010;
   AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
@@ -255,8 +255,8 @@ TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
   }
 }
 
-// Where it leaves it stays whole in the sets that had it, and asks for what it has always asked for, though
-// it had only half entered.
+// A range that leaves stays whole in the sets that had it. Its demand stays the same, though it had only half
+// entered.
 TEST(Blend, ARangeThatLeavesStaysInTheSetsThatHadIt) {
   const double speed = 0.5, limit = 0.3, horizon = 0.010;
   AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
@@ -338,8 +338,8 @@ TEST(Blend, ASwitchInTheMiddleOfABlendMakesAThirdSet) {
   EXPECT_NEAR(largest_step, period / 0.1, 1e-7);
 }
 
-// What is asked for along an axis goes on from where it was when the switch came, half way from the first
-// driver to the second.
+// The demand along an axis goes on from its value at the switch, half way from the first driver to the
+// second.
 TEST(Blend, WhatIsAskedForGoesOnFromWhereItIs) {
   const double blend = 0.1;
   const double targets[] = {0.1, 0.3, -0.2};
@@ -435,8 +435,8 @@ TEST(Blend, GoingBackInTheMiddleOfABlendTakesOverWhatIsThere) {
   EXPECT_EQ(last, 1.0);
 }
 
-// A value of `always` that the switch sets changes with the blend, as a task's does; one that stays is in all
-// sets as it is now.
+// A value of `always` that the switch sets changes with the blend, as a task's does. A value that stays is in
+// all sets as it is now.
 TEST(Blend, WhatASwitchSetsOfAlwaysIsBlended) {
   lang::Program p = switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
                               task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}), 0.1);
@@ -493,8 +493,8 @@ TEST(Blend, ASwitchOnEveryTickStaysWithinThreeSetsAndTheCapacity) {
   }
 }
 
-/// Runs two tasks on the moving test base and returns the largest step of the commanded planar force in one
-/// tick from the switch on, and the largest change of force that the switch brings about in all.
+/// Runs two tasks on the moving test base. `largest` is the largest step of the commanded planar force in one
+/// tick from the switch on. `whole` is the largest change of force that the switch brings about in all.
 struct Steps {
   double largest = 0.0;
   double whole = 0.0;

@@ -91,7 +91,8 @@ double apparent_mass(double body) {
   return body + 4.0 * (wheel_mass + (wheel_spin + rotor_inertia) / (wheel_radius * wheel_radius));
 }
 
-/// What is given back is what was given: a base of another mass stands again, too.
+/// The motors give back the rates that the model gained, whatever the mass. So a base of another mass stands
+/// again, too.
 TEST(BlindBudget, ABaseOfAnotherMassStandsAgain) {
   for (const double share : {0.5, 1.5}) {
     lang::Robot robot = mecanum_robot();
@@ -195,8 +196,8 @@ TEST(BlindBudget, WhatALookHasFoundIsLeftBehind) {
   EXPECT_LT(course.fastest, 1.1 * 0.2);
 }
 
-/// A base that a hook catches from 0.5 s on, within a fifth of a second, and then holds both ways. What tells
-/// it from dead encoders is the latch.
+/// A hook catches the base from 0.5 s on, within a fifth of a second, and then holds it both ways. Only the
+/// latch distinguishes this from dead encoders.
 Course pull_in_a_dock(int holds, double open_at, double stale_from) {
   lang::Program program_ = sets_out(0.05);
   lang::Signal latch;
@@ -324,8 +325,8 @@ Press press_on_a_wall(double dead_at, double gone_at, double stiffness = 1e5, do
   return result;
 }
 
-/// Had the wall gone with the last count, the base would have gained `most_lean` when it is asked, and what
-/// the slackened press adds until that is let go. This model is exact: k = 1, and c = 1 along x.
+/// Suppose that the wall goes with the last count. Then the base gains `most_lean` until the press is
+/// slackened, and more until the slackened press is let go. This model is exact: k = 1, and c = 1 along x.
 TEST(BlindBudget, APressThatNoEncoderConfirmsGainsNoMoreThanItsLean) {
   const double a = press / apparent_mass(body_mass);
   const double bound = BlindBudget::most_lean + 2.0 / 3.0 * a * BlindBudget::slackens_for;
@@ -353,8 +354,9 @@ TEST(BlindBudget, APressThatIsAskedGoesOn) {
   }
 }
 
-/// Encoders that die just before the end, or behind it, where a wall that is let go moves the base back by
-/// 0.2 mm, leave no time to be asked. A run that ends while the base moves says that it may still move.
+/// Encoders that die just before the end, or after it, leave no time for a slackened press. After the end the
+/// wall that is let go moves the base back by 0.2 mm. A run that ends while the base moves says that it may
+/// still move.
 TEST(BlindBudget, AnEndBehindAPressThatNoEncoderConfirmsIsTrue) {
   const Press healthy = press_on_a_wall(never, never);
   EXPECT_EQ(healthy.reason, EventCode::none);
@@ -365,7 +367,7 @@ TEST(BlindBudget, AnEndBehindAPressThatNoEncoderConfirmsIsTrue) {
   }
 }
 
-/// What was not confirmed before a swap of programs is not after it.
+/// A motion that no encoder confirmed before a swap of programs is not confirmed after it.
 TEST(BlindBudget, ASwapOfProgramsDoesNotFillIt) {
   const lang::Program program_ = sets_out(0.5);
   Runner runner(program_);

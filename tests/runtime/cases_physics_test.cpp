@@ -1,5 +1,4 @@
-// What physics leaves reachable, number by number, judged by the simulated plant. Each test prints its
-// figure.
+// The figures that physics leaves reachable, judged by the simulated plant. Each test prints its figure.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -443,8 +442,8 @@ lang::Program without_ranges(lang::Program program) {
   return program;
 }
 
-/// Whether nothing but the switch moves what is commanded: nobody has just seen the partner anew, and nothing
-/// throws the base harder than its motors do.
+/// Whether only the switch changes the commands. The partner has not just been seen anew, and nothing throws
+/// the base harder than its motors do.
 bool is_quiet(const Sensed& sensed, const Truth& truth, std::vector<double>& stamps) {
   bool is_new = false;
   stamps.resize(sensed.signals.size(), -1.0);
@@ -483,10 +482,10 @@ Steps steps_of(const lang::Program& program) {
   return steps;
 }
 
-// A row that fades has at most its force range to give away, over the blend: dt/blend of it in a tick, and
-// twice that where one that leaves and one that enters oppose each other. A velocity range beside a force
-// enters at once, to be kept when the blend is over: it asks for m (range - v) / blend of a base that is
-// faster, and takes nothing from a push whose base is not.
+// A row that fades gives away at most its force range over the blend, so dt/blend of it in a tick. It is
+// twice that if a leaving row and an entering row oppose each other. A velocity range beside a force enters
+// at once, to be kept when the blend is over. It takes m (range - v) / blend from the push of a faster base,
+// and nothing from that of a slower one.
 TEST(Switches, OfTheFourCasesStepByTheBlendsShareOnThePlantAndHarderWithoutIt) {
   struct Case {
     const char* file;

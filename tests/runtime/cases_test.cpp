@@ -1,5 +1,5 @@
-// The task files that ship, on a base with ideal wheels and exact sensors, with scripted signals: what the
-// language promises, judged by the base's own motion and by the forces at its contacts.
+// The shipped task files on a base with ideal wheels and exact sensors, with scripted signals. The base's own
+// motion and the forces at its contacts are checked against the promises of the language.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What happens to the program from outside while it runs a task, and what its log is good for afterwards.
+// Events from outside while the program runs a task, and the use of its log afterwards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -124,8 +124,9 @@ TEST_F(FromOutside, ASignalBringsARobotToRestThatIsWatched) {
   EXPECT_NEAR(ahead.back(), 0.0, 0.02);
 }
 
-/// What somebody does with an editor: a slip first, the scene, which is the plant's, then what was meant. The
-/// run goes on with the old file, then with the new one, and both of its logs replay.
+/// Saves from an editor: a file with a slip, then a change of the scene, which the plant has read before,
+/// then the right file. The run goes on with the old file, then with the new one, and both of its logs
+/// replay.
 TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
   const pid_t child = start_endless({"--watch"});
   const std::string endless = read(folder_ / "task.yaml");

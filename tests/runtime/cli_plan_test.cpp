@@ -325,7 +325,7 @@ std::string loaded_base(const std::string& mass, const std::string& at) {
          joint("load", "fixed", at) + "</robot>";
 }
 
-/// With a free heading these bases spin at up to 140 deg/s on their way to the wall: I w' = -m x v w + m y
+/// With a free heading these bases spin at up to 140 deg/s on their way to the wall, by I w' = -m x v w + m y
 /// v'.
 TEST_F(CliPlan, init_with_a_task_aligns_bases_whose_mass_is_beside_or_behind_the_axle) {
   for (const auto& [mass, at] : {std::pair{"20", "-.1 .1 .1"}, {"60", "-.2 .02 .1"}}) {

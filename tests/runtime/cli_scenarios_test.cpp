@@ -266,8 +266,8 @@ TEST_F(ManyRuns, AreCountedInOneLineOfTheTerminal) {
       << shown;
 }
 
-/// The memory of a simulation is taken from the system once, not for each run: 1000 runs had cost four times
-/// as much time in the system as in the program. A page is 4 kB.
+/// The memory of a simulation is taken from the system once, not for each run. Otherwise 1000 runs cost four
+/// times as much time in the system as in the program. A page is 4 kB.
 TEST_F(ManyRuns, TakeTheirMemoryOnce) {
 #ifdef ZWANG_SANITIZED
   GTEST_SKIP() << "a sanitizer owns malloc";
@@ -289,7 +289,8 @@ TEST_F(ManyRuns, TakeTheirMemoryOnce) {
   EXPECT_LT(twenty, 3 * one);
 }
 
-/// What it has is printed: the runs that are over, and how many are not. The others are neither good nor bad.
+/// A stopped `test` prints its results so far: the runs that are over, and the number of the others. The
+/// others are neither good nor bad.
 TEST_F(ManyRuns, AreReportedAsFarAsTheyCameWhenASignalStopsThem) {
   write("good.yaml", scenario("zwang_scenario", "elapsed < 9 s") +
                          "matrix: {params.wait: [0.1 s, 100000 s, 0.2 s]}\n" + "time_limit: 100000 s\n");
@@ -336,8 +337,8 @@ TEST_F(Scenarios, NothingIsAShareOfZero) {
   EXPECT_EQ(r.out.find("margin"), std::string::npos) << r.out;
 }
 
-/// What the world presses with, as joints and torques tell it, ends the task; the plant's own force is the
-/// judge. At 20 N of push 12 N come and 30 N never do.
+/// The force of the world, estimated from joints and torques, ends the task. The plant's own force is the
+/// judge. With a push of 20 N the condition holds for 12 N, and never for 30 N.
 TEST_F(Scenarios, AConditionOnTheEstimatedForceFiresWhereTheForceIs) {
   fs::create_directory(folder_ / "scenes");
   fs::copy(fs::path(ZWANG_SOURCE_DIR) / "specs/scenes/wall_far.yaml", folder_ / "scenes/wall.yaml");

@@ -55,8 +55,8 @@ tasks:
     constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
 )";
 
-// An arm that starts inside of a block: only the plant knows where its tip is. What `validate` calls good
-// starts, and what `run` refuses was told by `validate`, in the same words.
+// An arm that starts inside of a block: only the plant knows where its tip is. A scene that `validate`
+// accepts starts. A scene that `run` refuses is refused by `validate` in the same words.
 TEST_F(Cli, ValidateRefusesWhatThePlantRefuses) {
   const std::string arm = specs + "robots/mecanum_arm_base.yaml";
   const fs::path task = write("stand.yaml", "zwang: 1\nrobot: none.yaml" + std::string(stand) +

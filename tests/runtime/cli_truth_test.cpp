@@ -1,5 +1,5 @@
-// What a report says of the plant: which force was allowed the way that it pressed, which limit a blend
-// passed, and when.
+// The report's entries about the plant: the allowed force in the direction of the press, and the limits that
+// a blend passed, with their times.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -25,7 +25,7 @@ class Truth : public test::Program {
 constexpr const char* post =
     "objects: {post: {box: [0.2 m, 0.2 m, 1 m], at: [0 m, 0.6 m], stiffness: 10 kN/m}}\n";
 
-/// The base slides sideways into a post. What it may press with ahead is no bound of that.
+/// The base slides sideways into a post. The force range ahead does not bound the force sideways.
 std::string sideways(const std::string& force) {
   return R"(start: go
 tasks:

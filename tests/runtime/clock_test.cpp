@@ -1,5 +1,5 @@
-// The samples' clock steps back or ahead, stands, or runs at another rate: the base comes to rest by what it
-// still senses, and the event says what happened.
+// The samples' clock steps back or ahead, stands, or runs at another rate. The base comes to rest with the
+// samples that it still gets. The event names the cause.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,8 +70,9 @@ double as_it_is(double time) {
   return time;
 }
 
-/// The brake takes v / (F / m), 0.3 to 0.7 s from 0.5 m/s; 1000 periods are for both, finding and braking.
-/// (Two active casters still roll at 2.5 cm/s then, of whatever the stop is: docs/limits.md.)
+/// The brake takes v / (F / m), 0.3 to 0.7 s from 0.5 m/s. The 1000 periods are for both, the detection and
+/// the brake. Two active casters still roll at 2.5 cm/s then, whatever the reason of the stop:
+/// docs/limits.md.
 TEST(Clock, ThatIsWrongStopsTheBaseWhichStandsWithinAThousandCalls) {
   for (const char* robot : clocked_robots) {
     for (const Clock& clock : clocks) {

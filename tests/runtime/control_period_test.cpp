@@ -1,5 +1,5 @@
-// Loops that are slower than 1 kHz, as most mobile bases have them, and faster ones: the same tasks, judged
-// by the plant, which goes on in steps of 1 ms.
+// Loops slower than 1 kHz, as most mobile bases have them, and faster ones, with the same tasks. The plant is
+// the judge. Its steps stay 1 ms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,8 +111,8 @@ TEST(ControlPeriod, DoesNotMakeItLongerThatARobotIsBlind) {
   }
 }
 
-/// What the shipped scenarios expect holds with 100 ticks a second. Their robots' files say nothing of the
-/// period, and the plant's truth is looked at every millisecond.
+/// The expectations of the shipped scenarios hold with 100 ticks a second. The robot files do not give the
+/// period. The plant's truth is checked every millisecond.
 class AtTenMilliseconds : public testing::TestWithParam<const char*> {};
 
 TEST_P(AtTenMilliseconds, TheScenarioHolds) {

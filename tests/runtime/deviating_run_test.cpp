@@ -1,6 +1,6 @@
-// Robots whose wheels are drawn a little beside their axles run as those that are drawn exactly: the same
-// end, the same path and the same torques, to the order of the deviation. The oracle is the exact robot's
-// run. With ZWANG_LONG (`./dev test --long`) on every drive, with twenty deviations each.
+// Robots whose wheels are drawn a little beside their axles run like robots that are drawn exactly. The end,
+// the path and the torques are the same, to the order of the deviation. The oracle is the exact robot's run.
+// With ZWANG_LONG (`./dev test --long`) on every drive, with twenty deviations each.
 #include <gtest/gtest.h>
 
 #include <cmath>

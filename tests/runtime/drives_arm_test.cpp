@@ -62,10 +62,11 @@ class ArmWatch {
   std::vector<int> joints_;
 };
 
-// Under way a held arm moves only by what the plant's contacts and integration differ from the model. At the
-// wall it is worked out to accelerate with the base by 20 N / 54 kg, and does not: it bends by T^2 times that
-// over a link's pendulum length of 0.1 m or more, 0.0025 s^2 x 3.7 rad/s^2 = 0.53 deg. The base presses with
-// all 20 N: worked out for an arm that hangs loose, and falls, it would be 12 N.
+// Under way a held arm moves only because the plant's contacts and integration differ from the model. At the
+// wall the model predicts that the arm accelerates with the base by 20 N / 54 kg, but it does not. So the arm
+// bends by T^2 times that over a link's pendulum length of 0.1 m or more:
+//   0.0025 s^2 x 3.7 rad/s^2 = 0.53 deg
+// The base presses with all 20 N. With a model of an arm that hangs loose, and falls, it would be 12 N.
 TEST(UnusedArm, StaysWhereItIsAndTheBaseKeepsItsNewtons) {
   lang::Program program =
       load(zwang::test::specs("wall_align.yaml"), zwang::test::specs("scenes/wall_far.yaml"));

@@ -1,5 +1,5 @@
-// Every drive that ships, model against plant: torques that the solver finds for sine demands, with no
-// feedback at all, accelerate the simulated base as demanded.
+// Every drive that ships, model against plant. The solver finds torques for sine demands. Without any
+// feedback they accelerate the simulated base as demanded.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -161,10 +161,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, OpenLoopDrive,
                                          OpenLoopCase{"swerve_base", 0.005, {x}},
                                          OpenLoopCase{"mecanum_arm_base", 0.005, {x, y, turn}}));
 
-// A skidding base turns when the wheels' push about its middle exceeds the floor's: sum of mu N times the
-// distance ahead or behind. 50 kg on four equal wheels 0.256 m ahead and behind: mu m g 0.256 m.
-// What `zwang robot init` makes of the URDFs of real robots, once its open places are filled, is a robot that
-// can be simulated.
+// `zwang robot init` drafts robot files from the URDFs of real robots. With its open places filled, each
+// draft is a robot that can be simulated.
 TEST(RealRobots, AreSimulatedAsTheyAreDrafted) {
   const fs::path real = ZWANG_SOURCE_DIR "/../shared/robots";
   if (!fs::is_directory(real)) GTEST_SKIP() << real << " is not here";
@@ -189,6 +187,9 @@ TEST(RealRobots, AreSimulatedAsTheyAreDrafted) {
   }
 }
 
+// A skidding base turns if the moment of the wheels' push about its middle exceeds that of the floor. The
+// floor's moment is the sum of mu N times the distance ahead or behind. Here 50 kg stand on four equal wheels
+// 0.256 m ahead and behind: mu m g 0.256 m.
 TEST(Skidding, TheFloorHoldsABaseBackFromTurning) {
   const lang::Robot robot = load(robots / "skid_base.yaml");
   lang::Scene scene;

@@ -1,5 +1,5 @@
-// In an end, `done` or `failed`, nothing sets the base in motion: its kinetic energy stays below what it was
-// at the switch, judged by a base whose dynamics were derived apart from the library.
+// In an end, `done` or `failed`, nothing sets the base in motion. Its kinetic energy stays below its value at
+// the switch. The judge is a base whose dynamics were derived apart from the library.
 #include <gtest/gtest.h>
 
 #include "planar_course.hpp"

@@ -1,5 +1,5 @@
-// A robot that feels, on a drive with torque limits of its own: what presses moves its virtual robot, by
-// Newton's law; the wall squares it up, by the plant.
+// A robot that feels, on a drive with torque limits of its own. A force moves its virtual robot by Newton's
+// law. A wall of the plant squares the robot up.
 #include <gtest/gtest.h>
 
 #include <cmath>

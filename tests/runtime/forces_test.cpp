@@ -1,5 +1,5 @@
-// Drivers that follow a force or add up their error, on a base whose dynamics are derived apart from the
-// library; and the forces that conditions ask for.
+// Drivers that follow a force or add up their error, and the forces that conditions ask for. The base's
+// dynamics are derived apart from the library.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,8 +61,8 @@ std::vector<double> speeds(const lang::Program& program, const std::vector<doubl
   return found;
 }
 
-// From 1 s on F pushes with 30 N: dds = (F~ - D ds)/M with F~ = 30 N - 5 N, so that v(t) = 25/80 (1 - exp(-t
-// D/M)), whatever the base itself weighs.
+// From 1 s on F pushes with 30 N: dds = (F~ - D ds)/M, F~ = 30 N - 5 N. So v(t) = 25/80 (1 - exp(-t D/M)),
+// whatever the mass of the base itself is.
 TEST(Yield, MovesLikeItsMassAndItsDamper) {
   const Hand pushes = [](double time) { return Eigen::Vector3d(time < 1.0 ? 0.0 : 30.0, 0.0, 0.0); };
   for (const double mass : {40.0, 160.0}) {
@@ -134,7 +134,8 @@ TEST(BuildUp, MakesUpForDrag) {
 
 constexpr double creep = 1e-3;  // [m/s] at which what blocks the base gives way
 
-/// What x presses with at the times [s], while something holds the base; then, let go, how fast it is.
+/// The forces along x at `times` [s] while something holds the base. Then the base is let go: its speeds at
+/// `later` [s].
 struct Blocked {
   std::vector<double> forces;
   std::vector<double> speeds;
@@ -161,8 +162,8 @@ Blocked blocked(const lang::Program& program, double until, const std::vector<do
   return found;
 }
 
-// Blocked at the speed ds, q = (v - ds) t/t_b: it presses with m (v - ds) (1 + t/t_b)/T, up to F after
-// t_b (F T/(m (v - ds)) - 1).
+// If the base is blocked at the speed ds, q = (v - ds) t/t_b. So it presses with m (v - ds) (1 + t/t_b)/T, up
+// to F after t_b (F T/(m (v - ds)) - 1).
 TEST(BuildUp, ReachesItsForceRangeWhenBlocked) {
   const double m = mass_along_x(), v = 0.02 - creep, T = 0.05, t_b = 4.0, F = 60.0;
   AxisStatements x = slow_push(t_b);
@@ -177,7 +178,8 @@ TEST(BuildUp, ReachesItsForceRangeWhenBlocked) {
   EXPECT_NEAR(found.forces[2], F, 1e-6);
 }
 
-// Let go at F after a long while, q stands where F was reached: with t_b = 4 T, l = 1/(2 T) and e = ds - v,
+// If the base is let go at F after a long while, q has the value at which F was reached. With t_b = 4 T,
+// l = 1/(2 T) and e = ds - v,
 //   e'' + 2 l e' + l^2 e = 0,   e = (e0 + (F/m + l e0) t) exp(-l t).
 TEST(BuildUp, DoesNotWindUpAtItsBound) {
   const double m = mass_along_x(), v = 0.02, T = 0.05, F = 40.0;
@@ -240,7 +242,7 @@ TEST(WrenchSignal, IsAskedForByItsParts) {
   }
 }
 
-// What presses on the base is a wrench on a frame that it carries, about that frame's origin.
+// The estimated force on the base, as a wrench on a frame that it carries, about that frame's origin.
 TEST(EstimatedWrench, OnAFrameOfTheBaseIsThatOnTheBase) {
   Nodes torque = name(Op::estimated_wrench, bumper);
   torque[0].axis = static_cast<int>(lang::WrenchPart::rz);

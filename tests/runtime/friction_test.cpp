@@ -22,7 +22,7 @@ lang::Robot rough_robot(double compensate) {
   return robot;
 }
 
-/// What is added at the rate `qd`, each joint pressing with `press`.
+/// The torques that the compensation adds at the rate `qd`, if each joint presses with `press`.
 Eigen::VectorXd compensation(FrictionEstimate& friction, double qd, double press) {
   friction.update(Eigen::VectorXd::Constant(4, qd), Eigen::VectorXd::Constant(4, press));
   Eigen::VectorXd tau = Eigen::VectorXd::Constant(4, 1.0);
@@ -164,7 +164,7 @@ TEST(FrictionEstimate, FeedsSwingsOfLessThanTheTruePreslidingByWhatItIsTooShort)
   EXPECT_NEAR(works.given - given, 4.0 * 0.8 * 0.5 * (give - 0.5 * give), 1e-3 * give);
 }
 
-/// What the joints of the mecanum base press with, by the solver.
+/// The forces with which the joints of the mecanum base press, by the solver.
 class PressTest : public testing::Test {
  protected:
   Eigen::VectorXd press(const solver::AxisConstraint& constraint) {

@@ -87,7 +87,8 @@ TEST(Guard, RefusesAStateOfTheWrongSize) {
   EXPECT_EQ(wrenches.guard.admit(wrenches.sensed), SampleStatus::not_finite);
 }
 
-// What a quaternion gives that nobody normalised, or a mirrored frame; four decimals of one are sound.
+// The rotation of a quaternion that nobody normalised, or of a mirrored frame, is refused. A unit quaternion
+// with four decimals is accepted.
 TEST(Guard, RefusesAPoseWhoseRotationIsNone) {
   const Eigen::Quaterniond quarter(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
   for (const auto& [rotation, status] :
@@ -281,7 +282,7 @@ TEST(Guard, AFewLostTicksGoOnTwentyStop) {
   EXPECT_EQ(frozen.guard.reason(), EventCode::lost_ticks);
 }
 
-/// What a driver does that hears nothing any more: the last positions, and rates computed from them.
+/// A driver that hears nothing any more repeats the last positions, and rates computed from them.
 TEST(Guard, PositionsThatStopFromOneSampleToTheNextAreFrozen) {
   // Speeds up to 1 rad/s, rolls evenly, stands after so many ticks; how long until the stop.
   const auto roll_and_stand = [](GuardBench& bench, double encoder_step, int braking_ticks) {

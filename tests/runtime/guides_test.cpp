@@ -1,4 +1,4 @@
-// What hinges, slides and casters do to an object of a scene. Expected values are the formulas of their
+// The effect of hinges, slides and casters on an object of a scene. Expected values are the formulas of their
 // headers. Whole runs against them are the scenarios gate_leant_on, tray_leant_on and cart_pushed.
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ TEST(ObjectGuide, FrictionHoldsWithoutCreep) {
   lang::Guide guide = closer();
   guide.preload = guide.stiffness = 0.0;
   ObjectGuide simulated(guide, 9.6);
-  // What is pushed with less than the friction comes to rest where the bristle holds it: 1.5/(200^2 x 9.6)
-  // rad.
+  // A body that is pushed with less than the friction comes to rest where the bristle holds it: 1.5/(200^2 x
+  // 9.6) rad.
   double q = 0.0, rate = 0.0;
   for (int i = 0; i < 3000; ++i) {
     rate += step_length * (1.5 + simulated.step(q, rate, step_length)) / 9.6;
@@ -80,8 +80,8 @@ TEST(CasterFriction, SwivelsIntoItsWay) {
   EXPECT_NEAR(force.x(), -12.0 * std::sin(angle), 0.05);
 }
 
-// One that turns about its own centre rolls each caster along its circle: the moment is mu m g times the
-// radius.
+// An object that turns about its own centre rolls each caster along its circle. The moment is mu m g times
+// the radius.
 TEST(CasterFriction, TurnsOnItsCircle) {
   CasterFriction casters(25.0, 12.0, 0.04, 0.3, 0.4);
   Eigen::Vector3d force;

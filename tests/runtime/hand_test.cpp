@@ -1,4 +1,4 @@
-// What a hand does to the simulated world acts as the same thing does in a scene file.
+// A hand's action on the simulated world has the same effect as the entry of a scene file.
 #include "zwang/runtime/hand.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The travel and the speed of an arm's joints, on a plant whose joints have no end stops: what keeps a joint
-// inside is the guard alone.
+// The travel and the speed of an arm's joints. The plant's joints have no end stops: only the guard keeps a
+// joint inside.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -121,10 +121,10 @@ struct JointRun {
   double lowest = 0.0, highest = 0.0, fastest = 0.0, at_stop = 0.0, rate_at_end = 0.0, first_too_fast = 0.0;
 };
 
-// Whatever drives it, and however fast: the joint comes to rest in its travel. The stop comes no sooner than
-// it has to: it swings by v / (20 rad/s e), goes on at v while the torque turns around, and brakes with 20
-// rad/s^2 at least, the shoulder's 39 N m less 10 N m of weight on 1.4 kg m^2; in the order of the three half
-// of their sum is a fair bound.
+// With any driver and at any speed the joint comes to rest in its travel. The stop comes no sooner than
+// needed. The way of a stop has three parts. The joint swings by v / (20 rad/s e), goes on at v while the
+// torque turns around, and brakes with 20 rad/s^2 at least. The 20 rad/s^2 are the shoulder's 39 N m less 10
+// N m of weight on 1.4 kg m^2. The sum of the three parts bounds the travel that is left at the stop.
 TEST(JointLimits, AStopKeepsADrivenJointInItsTravel) {
   for (const char* drive : {"velocity: 0.5 rad/s", "velocity: -0.5 rad/s", "velocity: 0.85 rad/s",
                             "velocity: -0.85 rad/s", "force: 4 N m, velocity: +-0.8 rad/s"}) {
@@ -146,8 +146,8 @@ TEST(JointLimits, AStopKeepsADrivenJointInItsTravel) {
   }
 }
 
-// What a task brakes by itself is not stopped, up to the very end: a range is kept with 0.72 of the
-// acceleration, which the guard's 1 leaves room for.
+// A joint that the task brakes by itself is not stopped, up to the very end. A range is kept with 0.72 of the
+// acceleration. The guard counts on all of it, so it stops later.
 TEST(JointLimits, ARangeThatEndsWithTheTravelIsLeftAlone) {
   for (const ArmJoint& joint : {shoulder, elbow, wrist}) {
     const std::string end = std::to_string(joint.upper) + " rad";

@@ -1,5 +1,6 @@
-// A drive that takes velocities and torque limits, driven by the shipped tasks: as gentle as torques,
-// whatever its rate and its delay, and bounded where it does not do what it is told. Judged by the plant.
+// A drive that takes velocities and torque limits, with the shipped tasks. It is as gentle as a drive that
+// takes torques, at any rate and delay. Its forces are bounded where it does not follow its command. The
+// plant is the judge.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,8 +64,8 @@ TEST(LimitedDrive, AlignsAsGentlyAndNearlyAsSoonAsTorques) {
 }
 
 /// Behind the drive's loop nobody sees a motor's torque. A motor that is lost or stuck leaves the others in
-/// their bounds. One that is flipped drives its wheel away from its command: in the 0.3 s until that is told,
-/// the base gains what the task's forces, 40 N along x and along y, give it.
+/// their bounds. A flipped motor drives its wheel away from its command. In the 0.3 s until the guard tells
+/// it, the task's forces, 40 N along x and along y, speed the base up.
 TEST(LimitedDrive, AMotorThatIsBrokenIsStoppedOrStaysInItsBounds) {
   constexpr double cruise = 0.15, push = 40.0;  // [m/s], [N] of obstacle.yaml
   for (const lang::FaultKind kind :

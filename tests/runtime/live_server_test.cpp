@@ -254,7 +254,7 @@ TEST(LiveServer, TakesShortRequestsAndNotTooMany) {
   EXPECT_TRUE(comes_true([&] { return !(requests = server.take_requests()).empty(); }));
   EXPECT_EQ(requests, std::vector<std::string>{"hello"});
   for (int i = 0; i < 50; ++i) page.socket.send_text("again");
-  // One that is too long ends the stream; so all before it have come.
+  // A request that is too long ends the stream, so all requests before it have come.
   page.socket.send_text(std::string(2000, 'x'));
   EXPECT_TRUE(comes_true([&] { return server.pages() == 0; }));
   EXPECT_EQ(server.take_requests(), std::vector<std::string>(3, "again"));

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a log holds at the time `t` [s] of its run.
+/// The values of a log at the time `t` [s] of its run.
 struct Values {
   double speed = 0.0;    ///< computed
   double encoder = 0.0;  ///< sensed

@@ -1,5 +1,5 @@
-// The MCAP log: every number comes back bit by bit, and whatever happens to the file, the reader gets what is
-// whole and says what is not.
+// The MCAP log: every number comes back bit by bit. If the file is damaged, the reader gets the whole parts
+// and names the damaged ones.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -184,7 +184,7 @@ TEST(McapLog, CutAtAnyByteLosesNoMoreThanAChunk) {
     const LogContents log = read(cut);
     EXPECT_FALSE(log.closed) << size;
     EXPECT_FALSE(log.damage.empty()) << size;
-    // What was whole before the cut stays readable.
+    // Records that were whole before the cut stay readable.
     EXPECT_GE(log.records, most) << size;
     most = std::max(most, log.records);
   }
@@ -206,7 +206,7 @@ TEST(McapLog, AFlippedBitIsToldAndLosesNoMoreThanAChunk) {
     put_bytes(flipped, changed);
     const LogContents log = read(flipped);
     EXPECT_GE(log.records + records_in_a_chunk, count) << "byte " << i;
-    // What stands behind the data is there to find things faster, and is not read.
+    // The sections behind the data only speed up a search, and are not read.
     if (i < data_end + data_end_head.size() + 4) {
       EXPECT_FALSE(log.damage.empty()) << "byte " << i;
     }

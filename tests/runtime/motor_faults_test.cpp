@@ -1,5 +1,6 @@
-// Motors that give nothing, keep what they gave, or push the wrong way, on every kind of drive that presses
-// against a wall, from each moment of that task: when each was felt and found, and what the plant measured.
+// Motors that give nothing, keep their torque, or push the wrong way. The faults begin at each moment of the
+// task, on every kind of drive that presses against a wall. The tests print when each fault was felt and
+// found, and the plant's measurements.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ const char* word(FaultKind kind) {
   return kind == FaultKind::torque_stuck ? "stuck" : "flipped";
 }
 
-/// What a motor gives less than it is told.
+/// The torque that is missing from a motor's command.
 class MissedTorque {
  public:
   MissedTorque(FaultKind kind, double at) : kind_(kind), at_(at) {}
@@ -210,8 +211,8 @@ TEST_P(MotorFaults, AreFoundInTimeAndForceAndSpeedStayBounded) {
             out.found < 0.0 ? "not found" : out.code.c_str(), out.found, 1e3 * out.unseen, out.fastest,
             out.along, out.hardest);
         SCOPED_TRACE(std::string(drive.robot) + " " + wheel + " " + word(kind) + " " + moment.name);
-        // One that is stuck pushes on until it is found, as hard as the task had it push; nobody may be able
-        // to brake it.
+        // A stuck motor pushes on until it is found, as hard as the task commanded before. Possibly no other
+        // motor can brake it.
         const bool is_held = kind != FaultKind::torque_stuck || pressing.has_spare_motors();
         const double more = is_held ? 0.0 : deadline * push / pressing.mass();
         EXPECT_LE(out.fastest, beyond * allowed_speed + more);
@@ -239,10 +240,10 @@ TEST_P(MotorFaults, AreFoundInTimeAndForceAndSpeedStayBounded) {
   }
 }
 
-/// Nobody promises when a motor's fault is found while hits follow each other, or corners press. What the
-/// task promises holds all the same: the axis that it limits, and each hit's force. But for a motor that is
-/// stuck on a base without one to spare, which is nobody's to hold, as above. One of two that is flipped is
-/// found whenever it is felt.
+/// While hits follow each other, or corners press, the guard promises no time until a motor's fault is found.
+/// The task's own promises hold all the same: the axis that it limits, and each hit's force. The exception is
+/// a stuck motor on a base without a spare one: no other motor can hold it, as above. A flipped motor of two
+/// is found whenever it is felt.
 TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
   const Drive& drive = GetParam();
   const Pressing pressing(drive.robot);
@@ -285,9 +286,9 @@ TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
   }
 }
 
-/// A soft wall presses slowly, with what its damping and then its spring give: as steadily as a motor that
-/// has failed, as far out as a wheel, and answered by a command of its size. It pressed before it was
-/// answered, and 1 mm more is little of what it was pressed in by.
+/// A soft wall presses slowly, first with its damping and then with its spring. Its force looks like a failed
+/// motor: as steady, as far out as a wheel, and answered by a command of its size. But it pressed before it
+/// was answered, and 1 mm more is little of the depth that it was pressed in by.
 TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
   const bool is_long = zwang::test::is_long();
   for (const double soft : is_long ? std::vector{1e3, 2e3, 5e3, 10e3} : std::vector{1e3, 5e3}) {
@@ -303,8 +304,8 @@ TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
   }
 }
 
-/// A soft wall gives back what was pressed into it, with a force that hardly slackens over the way that a
-/// base needs to get too fast.
+/// A soft wall gives back its energy. Its force hardly slackens over the way that a base needs to get too
+/// fast.
 TEST(SoftWall, IsNoRunawayOfAnOmniBaseAsItGivesBack) {
   for (const double yaw : {-15.0, -10.0, -5.0, 5.0, 10.0, 15.0}) {
     const Pressing pressing("omni", {.stiffness = 1e3, .friction = 0.15, .yaw = yaw * degree});

@@ -68,8 +68,8 @@ TEST(OpenLoop, TheMecanumPlantAcceleratesAsDemanded) {
   }
 }
 
-/// On real rollers, whose contacts jump from one to the next, with a velocity feedback of 20 1/s: the means
-/// over 20 ms of what the plant makes of a sine along one axis, against those of the demand.
+/// The error of the plant's acceleration against the demand, a sine along one axis. Both are means over 20
+/// ms, because the contacts of real rollers jump from one to the next. The velocity feedback is 20 1/s.
 double error_on_rollers(int along, double amplitude) {
   lang::Diagnostics diagnostics;
   const auto robot = lang::load_robot(ZWANG_SOURCE_DIR "/specs/robots/mecanum_base.yaml", diagnostics);

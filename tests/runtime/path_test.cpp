@@ -1,5 +1,5 @@
-// Paths: where a frame is along one, and a base whose dynamics were derived apart from the library that
-// drives along lines and fillets, and waits at its force range.
+// Paths: the place of a frame along a path, and runs of a base along lines and fillets. The base waits at its
+// force range. Its dynamics were derived apart from the library.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -199,7 +199,7 @@ TEST(AlongAPath, ProgressWaitsAtTheForceRangeAndCatchesNothingUp) {
   EXPECT_EQ(course.runner.scheduler().outcome(), Outcome::done);
   EXPECT_LT(fastest, pace + 1e-3);
   EXPECT_NEAR(course.base.pose.y(), 1.5, 5e-3);
-  // What is left at the wall takes its whole time from there, and more to speed up from rest.
+  // The rest of the path takes its whole time from the wall on, and more to speed up from rest.
   EXPECT_GT(course.base.time, gone + (end - wall_at) / pace);
 }
 

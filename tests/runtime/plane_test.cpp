@@ -51,7 +51,7 @@ double hardest_acceleration(Course& course, double seconds) {
   return hardest;
 }
 
-// What axes allow each, 0.8 m/s at 1 rad/s, takes 0.8 m/s^2 of the point.
+// Each axis allows its own value. Together 0.8 m/s at 1 rad/s accelerate the point by 0.8 m/s^2.
 TEST(Plane, TheAccelerationOfThePointIsLimitedAlsoInATurn) {
   for (const int in : {base_link, world_frame}) {
     Course course(driven(0.8, 0.0, 1.0, in, {.acceleration = 0.1, .force = {}}));

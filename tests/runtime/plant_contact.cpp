@@ -205,8 +205,8 @@ TEST(PlantContact, FrictionHoldsWithoutCreep) {
   EXPECT_NEAR(slide.plant.truth().y + front * slide.plant.truth().yaw, 0.0, 1e-4);
 }
 
-// Undamped, blocked at speed v under the push F: energy gives the peak F + sqrt(F^2 + n K m v^2), of which
-// the step h takes (h w)^2 pi/8, w^2 = n K/m.
+// An undamped wall blocks the base at the speed v under the push F. The energy gives the peak F + sqrt(F^2 +
+// n K m v^2). The step h takes the share (h w)^2 pi/8 of it, w^2 = n K/m.
 TEST(PlantContact, UndampedImpactPeakIsThatOfTheSpring) {
   for (const double stiffness : {1e4, 1e5, 1e6}) {
     for (const double push : {5.0, 20.0}) {

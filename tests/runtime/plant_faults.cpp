@@ -1,5 +1,5 @@
-// What must never happen silently: a simulation that reset itself, a run that differs from its repetition, a
-// robot that is not the one that was asked for.
+// Faults of the plant that must not pass unseen. The simulation resets itself, a run differs from its
+// repetition, or the robot is not the one that was asked for.
 #include <gtest/gtest.h>
 
 #include <cstring>

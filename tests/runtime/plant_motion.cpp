@@ -83,8 +83,8 @@ struct Rms {
   double error = 0.0, demand = 0.0;
 };
 
-/// Sine demands on the axes of `amplitude`; the rms error of each axis over its demand's rms (or of the
-/// largest demand, on an axis without one).
+/// Sine demands on the axes of `amplitude`. Returns the rms error of each axis over its demand's rms. An axis
+/// without a demand counts over the largest one.
 Vector3 open_loop_error(const lang::Robot& robot, const Vector3& amplitude, const Vector3& frequency) {
   const PlanarReference reference(robot.model);
   MujocoPlant plant(robot, empty_scene);

@@ -47,10 +47,10 @@ lang::Robot steep_mecanum_base();
 lang::Robot omni_base();
 lang::Robot differential_base(BaseDesign design = {});
 
-/// The planar motion of a base on wheels: z = (vx, vy, wz, wheel rates), no-slip rows P z = 0 whose entries
-/// are constant in base axes, so
-///   M z' + c = (0, tau) + P' lambda,   P z' = 0,
-/// with c the velocity products of the rigid base in the rates of body components.
+/// The planar motion of a base on wheels: z = (vx, vy, wz, wheel rates). The no-slip rows are P z = 0, and
+/// their entries are constant in base axes. So
+///   M z' + c = (0, tau) + P' lambda,   P z' = 0
+/// c are the velocity products of the rigid base in the rates of body components.
 class PlanarReference {
  public:
   explicit PlanarReference(const solver::Model& model);

@@ -1,4 +1,4 @@
-// Who leans on a base that gives way is no fault of a motor.
+// A person who leans on a base that gives way does not count as a motor's fault.
 #include "guard/pusher.hpp"
 
 #include <gtest/gtest.h>

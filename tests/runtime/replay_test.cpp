@@ -64,7 +64,7 @@ TEST(Replay, KnowsTheParametersThatAHostSetDuringTheRun) {
   }
 }
 
-/// What a record says of the author's words leads back to them: an exit's timer and a parameter, too.
+/// The columns of a record lead back to the author's words: an exit's timer and a parameter, too.
 TEST(Replay, ColumnsOfExitsAndParametersHaveTheirLines) {
   const Runner runner(wall_alignment(), {.period = period});
   int exits = 0, parameters = 0;

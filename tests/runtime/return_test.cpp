@@ -1,5 +1,5 @@
-// The way back into a position range or a region that does not hold the base: with min(v_brk(|d|), return),
-// judged by the motion of a base whose dynamics were derived apart from the library.
+// The way back into a position range or a region, if the base stands outside. The speed is min(v_brk(|d|),
+// return). The judge is the motion of a base whose dynamics were derived apart from the library.
 #include <gtest/gtest.h>
 
 #include "planar_course.hpp"

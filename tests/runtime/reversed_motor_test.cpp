@@ -18,7 +18,7 @@ constexpr double look = RunawayWatch::look_every;
 constexpr double fast = 1e-5;  // [s] that the mass is integrated with
 constexpr double F = 20.0;     // [N] that the left motor is told
 
-/// What one driven wheel is told and does at its rim.
+/// The commanded force and the speed of one driven wheel at its rim.
 struct Rim {
   double force = 0.0;  ///< [N]
   double speed = 0.0;  ///< [m/s]
@@ -57,8 +57,8 @@ class Wheels {
 
 constexpr double mass = 50.0;  // [kg]
 
-/// Seconds until it is found, -1: not at all, of a base that another motor brings back from v0, as the left
-/// one gives `gives` of F and contacts that stand do nothing.
+/// The time [s] until a flipped motor is found; -1: never. Another motor brings the base back from v0. The
+/// left motor gives `gives` of F, and standing contacts do no work.
 double found_after(double gives, double v0) {
   Wheels wheels;
   for (double t = look; t < 1.0; t += look) {
@@ -137,8 +137,8 @@ TEST(ReversedMotor, IsNothingThatSlackensInTheDwell) {
 }
 
 TEST(ReversedMotor, IsNoMassThatIsHalfOfTheModels) {
-  // Nothing touches it. One wheel drives with 3 F v, the other is told to brake with F v: W = 2 F v, and what
-  // the model does not know is as much again, P = 2 F v.
+  // Nothing touches it. One wheel drives with 3 F v, the other is told to brake with F v: W = 2 F v. The
+  // power that the model does not know is as much again: P = 2 F v.
   Wheels wheels;
   for (int i = 0; i < 200; ++i) EXPECT_FALSE(wheels.see({{F, -0.06}, {3.0 * F, 0.06}}, 2.0 * F * 0.06));
 }

@@ -75,8 +75,8 @@ inline constexpr lang::Target to_failed{lang::TargetKind::failed, -1};
 
 lang::Exit exit(lang::Condition condition, lang::Target target, double dwell = 0.0);
 
-/// The planar dynamics of the test base, derived apart from the library: with the wheel rates w = J V,
-/// (M + J' I J) dV/dt + Coriolis = J' tau + F, V = (vx, vy, wz) in base axes. The centre of mass lies on the
+/// The planar dynamics of the test base, derived apart from the library. V = (vx, vy, wz) in base axes and
+/// the wheel rates are w = J V: (M + J' I J) dV/dt + Coriolis = J' tau + F. The centre of mass lies on the
 /// vertical through the base's origin.
 class PlanarBase {
  public:

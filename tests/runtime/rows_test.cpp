@@ -1,5 +1,5 @@
-// Each test is a sentence of the task language's section "Formal meaning", judged by the motion and the wheel
-// torques of a base whose dynamics were derived apart from the library.
+// Each test is a sentence of the task language's section "Formal meaning". The judges are the motion and the
+// wheel torques of a base whose dynamics were derived apart from the library.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -20,8 +20,8 @@ lang::Program load(const std::string& robot) {
   return zwang::test::shipped_program("wall_align.yaml", robot, "wall_far");
 }
 
-/// One mass on one wheel, told to stay between two speeds: v(t) and the force that it is told are given. What
-/// is left of the acceleration is somebody else's: p = sqrt(m) (dv/dt - F/m).
+/// One mass on one wheel, told to stay between two speeds. v(t) and the commanded force F are given. The rest
+/// of the acceleration comes from outside: p = sqrt(m) (dv/dt - F/m).
 class OneMass {
  public:
   OneMass(double low, double high) : robot_(load("mecanum").robot), model_(robot_.model), state_(model_) {
@@ -147,8 +147,8 @@ TEST(Runaway, IsNoneWhileTheSpeedIsAllowed) {
 }
 
 TEST(Runaway, IsNoBounce) {
-  // At 0.3 m/s into a spring of half a period of 0.2 s, and back with 0.25 m/s where 0.05 m/s are allowed: it
-  // rises for 0.1 s against the motors, to less than it had.
+  // The mass meets a spring of half a period of 0.2 s at 0.3 m/s. It comes back with 0.25 m/s where 0.05 m/s
+  // are allowed. The speed rises for 0.1 s against the motors, to less than before.
   OneMass mass(-0.05, 0.4);
   const auto speed = [](double t) {
     if (t < 1.0) return 0.3;
@@ -166,8 +166,8 @@ double pressing_in(double t) {
 }
 
 TEST(Runaway, IsNoSoftSpringThatGivesBack) {
-  // Told to brake with 12 N it goes back as m v' = K (x0 - s) - 12 N says: with up to 0.036 m/s where 0.02
-  // are allowed, and the force takes 35 ms for a tenth less.
+  // The mass is told to brake with 12 N and goes back by m v' = K (x0 - s) - 12 N. Its speed reaches 0.036
+  // m/s where 0.02 m/s are allowed. The force takes 35 ms to fall by a tenth.
   OneMass mass(-0.02, 0.02);
   const double rate = std::sqrt(bumper_stiffness / OneMass::mass), swing = depth - 12.0 / bumper_stiffness;
   const auto speed = [&](double t) {
@@ -178,7 +178,7 @@ TEST(Runaway, IsNoSoftSpringThatGivesBack) {
 }
 
 TEST(Runaway, IsFoundBesideASoftSpring) {
-  // What drives it on does not slacken: 0.2 m/s^2 back against 12 N.
+  // The force that drives the mass on does not slacken: 0.2 m/s^2 back against 12 N.
   OneMass mass(-0.02, 0.02);
   const auto speed = [](double t) { return t < 1.3 ? pressing_in(t) : -0.2 * (t - 1.3); };
   const auto told = [](double t) { return t < 1.3 ? bumper_stiffness * std::min(t, 1.0) * depth : 12.0; };
@@ -208,8 +208,8 @@ TEST(ContactDepth, OfWhatSlidesEndsAtTheDeepestContact) {
 }
 
 TEST(ContactDepth, OfAHitThatIsAllDampingIsKeptUntilItsSpringIsQuiet) {
-  // A unit mass runs into K s + c v at 0.5, K = 30 and c = 25: at first it feels 12.5, at the deepest 0.47,
-  // and then it is let out slowly. A tenth of 12.5 is more than the spring ever has.
+  // A unit mass runs into K s + c v at 0.5, K = 30 and c = 25. At first it feels 12.5, at the deepest 0.47.
+  // Then it is let out slowly. A tenth of 12.5 is more than the spring ever has.
   constexpr double k = 30.0, c = 25.0, dt = 1e-3;
   const solver::FreeMotions motions(load("mecanum").robot.model);
   ContactDepth contact(load("mecanum").robot, dt);
@@ -267,9 +267,9 @@ void PrintTo(const Flipped& flipped, std::ostream* out) {
 
 class MotorInContact : public testing::TestWithParam<Flipped> {};
 
-/// At rest against the wall, 20 N and every speed told to be 0, a motor turns around. What the guard is to
-/// find is a speed of `margin`; until it has, each axis gets at most
-///   a (dwell + 2) look_every = 0.07 m/s more, a = 1 m/s^2 the limit of what a row may ask for.
+/// At rest against the wall, 20 N and every speed told to be 0, a motor turns around. The guard has to find a
+/// speed of `margin`. Until then each axis gains at most
+///   a (dwell + 2) look_every = 0.07 m/s more, a = 1 m/s^2 the limit of a row's demand
 TEST_P(MotorInContact, ThatFlipsIsNamedAndTheBaseStands) {
   const lang::Program program = load(GetParam().robot);
   const double at = 15.0;
@@ -366,7 +366,7 @@ TEST(ProtectiveStop, BrakesWithAllMotorsThatTurnTheWrongWay) {
     EXPECT_LT(plant.truth().velocity.head<2>().norm(), 0.02) << robot;
     EXPECT_LT(plant.truth().time, 6.0) << robot;
     // One look finds it, and each motor is left out for one, while the others speed the base up with the
-    // stop's force. What begins between two looks is seen by the next but one.
+    // stop's force. A motion that begins between two looks is seen by the next but one.
     const double looks = static_cast<double>(program.robot.model.wheels().size()) + 3.0;
     const double a = program.robot.stop.force / program.robot.model.total_mass();
     EXPECT_LT(fastest, 0.08 + a * looks * 0.02) << robot;

@@ -95,7 +95,7 @@ TEST(Runner, ReportsEachLimitsWorstValueAndMargin) {
   EXPECT_NEAR(torque.worst, expected, 1e-3 * expected);
 }
 
-/// What a host measures at the bumper, from the first tick on.
+/// A loop whose host measures a force at the bumper, from the first tick on.
 struct PressedLoop : Loop {
   using Loop::Loop;
   void tick(const solver::Vector3& force) {
@@ -410,8 +410,8 @@ TEST(Runner, TheLogHasOneRecordATickAndBlanksWhatIsNotInForce) {
   EXPECT_GT(records, 1000);
 }
 
-// What `go.x` asks for is cut to 0.5 m/s^2 until its speed is near the range's end; while its set has the
-// share alpha, the share 1 - alpha of b is missed.
+// The demand of `go.x` is cut to 0.5 m/s^2 until its speed is near the range's end. While its set has the
+// share alpha, the share 1 - alpha of b is missing.
 TEST(Runner, TheLogHasWhatARowAsksForAndWhatItMisses) {
   const zwang::test::TemporaryFolder folder;
   std::istringstream log(log_of_a_run(folder.path() / "run.csv"));

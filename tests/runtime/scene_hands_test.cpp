@@ -1,5 +1,5 @@
-// What hands, force sensors, leaning objects and flat ends of arms do in a scene. Expected values are closed
-// forms of statics and of uniform acceleration.
+// Hands, force sensors, leaning objects and flat ends of arms in a scene. Expected values are closed forms of
+// statics and of uniform acceleration.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,7 +70,7 @@ Eigen::VectorXd joints_of(MujocoPlant& plant, const lang::Robot& robot) {
   return sensed.state.q;
 }
 
-// What balances a wrench at the tool are the joints' torques -J'w.
+// The joints' torques -J'w balance a wrench w at the tool.
 TEST(SceneHands, PressOnAnArmsFrameWithAWholeWrench) {
   const lang::Robot robot = sledge_with_tool();
   MujocoPlant plant(robot, lang::Scene{});

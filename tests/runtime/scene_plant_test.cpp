@@ -101,8 +101,8 @@ TEST(ScenePlant, PoseSignalsAreSeenFromTheirFrame) {
   EXPECT_FALSE(sensed.signals[1].valid) << "nobody measures it";
 }
 
-// A dock at the near face of a box whose origin lies 1.7 m behind the base: its x axis points on into the
-// box, as the hook's does.
+// A dock at the near face of a box whose origin lies 1.7 m behind the base. The dock's x axis points on into
+// the box, as the hook's does.
 TEST(ScenePlant, OfAnObjectWithADockTheSocketIsSeen) {
   const lang::Program program = program_with(R"(objects:
   dock:
@@ -209,7 +209,7 @@ TEST(ScenePlant, NoiseAndDropoutsAreAsLargeAsTheSceneSays) {
   EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
 }
 
-/// What a base feels that presses on a wall with 20 N, from 3 s on: then it rests.
+/// The felt forces of a base that presses on a wall with 20 N, from 3 s on: then it rests.
 Statistics forces(const std::string& how) {
   const lang::Program program = program_with(R"(objects:
   wall: {wall: {length: 4 m, thickness: 0.1 m, height: 1 m}, at: [0.42 m, 0 m], fixed: true, damping: 1}
@@ -442,9 +442,8 @@ TEST(ScenePlant, APayloadMakesTheBaseHeavierAndASlipperyFloorLetsItSlip) {
   EXPECT_GT(slipping, 0.5 * 0.05 * 9.81 * 0.5);
 }
 
-// With the centre of mass c ahead, a force F sideways at the base's origin turns the base as well: the first
-// row of M (vy, wz) = (F t, 0) about that origin is m vy + m_b c wz = F t, of which m_b is the base link's
-// part.
+// If the centre of mass lies c ahead, a force F sideways at the base's origin also turns the base. About that
+// origin M (vy, wz) = (F t, 0). Its first row is m vy + m_b c wz = F t, with the mass m_b of the base link.
 TEST(ScenePlant, ACentreOfMassFartherAheadTurnsABaseThatIsPushedSideways) {
   const lang::Program program = program_with("");
   ASSERT_NEAR(program.robot.model.bodies().front().inertia.mass, 36.8, 1e-9);
@@ -467,9 +466,9 @@ TEST(ScenePlant, ACentreOfMassFartherAheadTurnsABaseThatIsPushedSideways) {
   }
 }
 
-// A torque T_z about the vertical for a time t turns the base by J w = T_z t, J that of the base link, of the
-// wheels where they stand and of what turns with them: the wheel's and its rotor's, seen from the base with
-// the squared ratio of the rates (lx + ly) / R.
+// A torque T_z about the vertical for a time t turns the base: J w = T_z t. J is the inertia of the base
+// link, of the wheels at their places, and of the turning wheels and rotors. The last part counts with the
+// squared ratio of the rates, (lx + ly) / R.
 TEST(ScenePlant, AnotherInertiaTurnsTheBaseOtherwiseAndPushesItTheSame) {
   const lang::Program program = program_with("");
   const auto after = [&](double more, const Eigen::VectorXd& torque) {

@@ -1,5 +1,5 @@
-// Between two switches the scheduler writes only what is new of the constraints in force. What is there then
-// has to be what a scheduler puts there that begins at that moment and writes everything.
+// Between two switches the scheduler writes only the new parts of the constraints in force. The result has to
+// equal that of a scheduler that begins at that moment and writes everything.
 #include <gtest/gtest.h>
 
 #include "scheduler_bench.hpp"
@@ -18,8 +18,8 @@ lang::Group at_level_zero(lang::Group group) {
   return group;
 }
 
-/// Values from parameters and from a signal, a range of places whose braking hangs on the yaw, and edges that
-/// come into reach and go out of it.
+/// The program has values from parameters and from a signal. The braking of a position range hangs on the
+/// yaw. Edges come into reach and go out of it.
 lang::Program course() {
   AxisStatements x = drive("go.x", Axis::x, Quantity::velocity, 0.0);
   x.target.parameter = 0;
@@ -119,7 +119,7 @@ TEST(Settled, IsWhatASchedulerPutsThatBeginsNow) {
       expect_same(kept[c], anew[c]);
       EXPECT_EQ(bench.scheduler.in_force()[c].origin, fresh.in_force()[c].origin);
       EXPECT_EQ(bench.scheduler.in_force()[c].drives, fresh.in_force()[c].drives);
-      // What the solver said of a row came to the axis that made it.
+      // The solver's reading of a row came to the axis that made the row.
       const AxisReading reading = bench.scheduler.reading(bench.scheduler.in_force()[c].origin);
       if (kept[c].driver) {
         EXPECT_EQ(reading.residual, 0.25);

@@ -97,8 +97,8 @@ TEST(PoseSignal, HasNoVelocityUnlessItCarriesATwist) {
   see(bench, seen, bench.sensed.time);
   bench.sensed.signals[0].twist = solver::MotionVector{{0, 0, 0.1}, {0.2, 0.3, 0}};
   bench.tick();
-  // Along the socket's x, which is the base's y: what stands moves against it with minus its velocity at the
-  // place of the base's origin, v + w x r with r = (-2, 0).
+  // The velocity is along the socket's x, which is the base's y. The standing base moves against the socket
+  // with minus the socket's velocity at the base's origin: v + w x r, r = (-2, 0).
   EXPECT_NEAR(bench.scheduler.constraints().coordinates()[0].velocity, -(0.3 + 0.1 * -2.0), 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// What a program that is swapped in reads of the snapshots, and why it may be refused.
+// The inputs that a swapped-in program reads from the snapshots, and the reasons to refuse it.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -35,8 +35,8 @@ lang::Program reading(const std::vector<std::pair<std::string, lang::SignalType>
   return program;
 }
 
-/// The snapshots stay as the first program has them: the next one finds its signals by name, whatever their
-/// order, and what it does not read is left out. Both logs replay together.
+/// The snapshots keep the layout of the first program. The next program finds its signals by name, in any
+/// order, and leaves out the others. Both logs replay together.
 TEST(HotReload, FindsItsSignalsByName) {
   const lang::Program first =
       reading({{"range", SignalType::number}, {"latch", SignalType::boolean}, {"felt", SignalType::wrench}});

@@ -1,4 +1,4 @@
-// What the program writes on a terminal, and what it writes in its place elsewhere.
+// The program's output on a terminal, and its output elsewhere.
 #include <fcntl.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -37,7 +37,7 @@ class OnATerminal : public test::Program {
     return start(words, ptsname(terminal_));
   }
 
-  /// What comes until the words came so often; until the end where they do not.
+  /// The output until the words have come `times` times. If they come less often: the output until its end.
   std::string read_until(const std::string& words, int times) const {
     std::string shown;
     char one = 0;

@@ -1,5 +1,5 @@
-// Two robots in one world: what the one loses the other gains, each is told of the other as the scene says,
-// and the same seed gives the same run, bit by bit.
+// Two robots in one world. The one gains the momentum that the other loses. Each is told of the other as the
+// scene says. The same seed gives the same run, bit by bit.
 #include <gtest/gtest.h>
 
 #include <cmath>

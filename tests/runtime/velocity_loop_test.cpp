@@ -107,7 +107,7 @@ TEST(VelocityLoop, ItsTorqueLimitIsWhatThePlantPressesWith) {
   EXPECT_NEAR(plant.truth().objects[0].force, 4.0 * most / radius, 0.02);
 }
 
-/// What arrives at t was taken at the last multiple of the cycle before t - delay.
+/// A value that arrives at t was taken at the last multiple of the cycle before t - delay.
 TEST(SampledLine, HandsOnWhatWasTakenACycleAndADelayAgo) {
   for (const double delay : {0.0, 3 * ms, 25 * ms}) {
     const double cycle = 10 * ms;

@@ -101,7 +101,7 @@ TEST_F(Verbs, DoctorSaysWhatIsThere) {
                               "page of a run", "Python module", "ROS 2 topics (DDS)", "node", "Chromium"})
     EXPECT_TRUE(contains(r.out, subject)) << r.out;
   EXPECT_TRUE(contains(r.out, specs_folder.string())) << r.out;
-  // What is missing has its way out in the next line.
+  // The line after a missing program has the command that installs it.
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder_.c_str(), 1);
   const Result poor = zwang({"doctor"});

@@ -1,5 +1,6 @@
-// A drive that takes velocities and has torque limits of its own: its lead by the loop's equation, what the
-// virtual robot makes of samples by theirs, the stop and the twist by the plant.
+// A drive that takes velocities and has torque limits of its own. Its lead is compared with the loop's
+// equation, and the virtual robot's correction by samples with its own equation. The plant judges the stop
+// and the twist.
 #include "drive/virtual_robot.hpp"
 
 #include <gtest/gtest.h>
@@ -173,8 +174,8 @@ Meeting meet(const std::string& robot, double pace, double from) {
   return result;
 }
 
-/// The wheels stand. A command is c = 0.15 m/s: found in 0.3 s, once the sample has come and the envelope of
-/// commands, which fades with T_c + delay + 1/rate, tells nothing else.
+/// The wheels stand. A command is c = 0.15 m/s. The stop comes after 0.3 s, once the sample has come and the
+/// envelope of commands tells nothing else. The envelope fades with T_c + delay + 1/rate.
 TEST(BlindDrive, StopsAtWhatItsWheelsDoNotPass) {
   for (const char* robot : {"mecanum_50_hz", "mecanum_20_hz", "diff_50_hz", "mecanum_twist"}) {
     const lang::Drive drive = under_law("fence", robot).robot.drive;
@@ -226,8 +227,8 @@ Stopping stop_before_the_edge(const lang::Drive& true_loop, double payload) {
   return result;
 }
 
-/// A loop whose T_c is off by dT leaves dT of the lead: the base is behind, or ahead of, where it was led by
-/// v dT at most until the integral, or the pose's correction, has made up for it.
+/// If the loop's T_c is wrong by dT, the lead is wrong by dT. So the base is behind or ahead of its lead by v
+/// dT at most. The integral or the pose's correction makes up for it.
 TEST(BlindDrive, ALoopThatIsKnownBadlyPassesAnEdgeByItsOwnErrorOnly) {
   const lang::Drive known = under_law("fence", "mecanum_50_hz").robot.drive;
   for (const double factor : {0.5, 1.0, 2.0}) {

@@ -1,8 +1,8 @@
 // The main job, judged by the plant: a base that knows nothing of the wall is turned square by it.
 //
-// Every figure is the plant's own measurement. The bounds are those of the physics: a push of F meets a
-// contact of stiffness K at the speed v with the effective mass m, and peaks at F + sqrt(F^2 + K m v^2) where
-// nothing damps it.
+// Every figure is the plant's own measurement. The bounds are those of the physics. A push of F with the
+// effective mass m meets a contact of stiffness K at the speed v. Without damping its peak is F + sqrt(F^2 +
+// K m v^2).
 #include <gtest/gtest.h>
 
 #include <algorithm>

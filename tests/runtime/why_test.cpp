@@ -360,7 +360,7 @@ tasks:
   EXPECT_EQ(ended.why->cause, WhyCause::set);
 }
 
-// What decides is the way into a task that leads nowhere else, not the last step of that way.
+// The way into a task that leads nowhere else decides, not the last step of that way.
 TEST(Why, TheTurnAndNotTheRetreat) {
   const Ended ended = run(R"(
 start: look
@@ -404,7 +404,7 @@ tasks:
   expect_words(ended, {"`back_again` still waits after 0.", "`moved(base_link) > 5 m` is false (0."});
 }
 
-// Wheels slide on ice before the samples go bad. What the guard told before its stop stands before it.
+// Wheels slide on ice before the samples go bad. The guard's messages before its stop stand before the stop.
 TEST(Why, WhatWasToldBeforeTheStopStandsBeforeIt) {
   const Ended ended =
       run(std::string(drive_ahead) + R"(

@@ -1,6 +1,6 @@
-// What the first hour on a robot of one's own has in store: rates that are never filled in, in another unit,
-// an encoder that counts the other way round, signals by another clock. The robot is simulated, the host
-// between it and the runner makes one mistake.
+// Mistakes of the first hour on a new robot. Rates are never filled in, or have another unit. An encoder
+// counts the other way round. Signals have another clock. The robot is simulated. The host between the robot
+// and the runner makes one mistake.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,8 +68,9 @@ const char* task_of(const std::string& robot) {
   return robot == "diff" ? "wall_align.yaml" : "obstacle.yaml";
 }
 
-/// Believed to stand it would be sped up for ever. Until it is found it speeds up with what the tasks allow,
-/// 0.5 m/s^2: the rates count from 0.04 rad in a window on, which may be under way then, and three follow.
+/// Rates of 0 tell that the base stands, so it would be sped up for ever. Until the mistake is found the base
+/// speeds up with the tasks' 0.5 m/s^2. The rates count from 0.04 rad in a window on. That window may be
+/// under way then, and three follow.
 TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
   for (const char* robot : wired_robots) {
     const Trial run =
@@ -141,8 +142,8 @@ TEST(Wiring, RatesInAnotherUnitStopTheBase) {
   }
 }
 
-/// On a base with more wheels than freedoms the others tell; where there are as many, the motor turns the
-/// wrong way by all that is known.
+/// On a base with more wheels than freedoms the other encoders show the mistake. On a base with as many, all
+/// signs tell that the motor turns the wrong way.
 TEST(Wiring, AnEncoderThatCountsTheOtherWayRoundStopsTheBase) {
   struct {
     const char *task, *robot;
@@ -169,9 +170,9 @@ TEST(Wiring, AReversedEncoderIsNamed) {
   EXPECT_EQ(run.signal.substr(run.signal.size() - 3), ".qd");
 }
 
-/// The sign of all torques, or of all encoders: the base speeds up against its own brake. Found by the first
-/// torques, 0.04 s and what the observer is late by after they count, at a speed of 0.5 m/s^2 for 0.1 s at
-/// most.
+/// The sign of all torques, or of all encoders: the base speeds up against its own brake. The first torques
+/// show the mistake, 0.04 s and the observer's delay after they count. The speed is then at most 0.5 m/s^2
+/// for 0.1 s.
 TEST(Wiring, MotorsThatAllTurnTheOtherWayStopTheBase) {
   const Mistake torques{.sent = [](Eigen::VectorXd& tau) { tau = -tau; }};
   const Mistake encoders{.sensed = [](solver::State& state) {
@@ -188,10 +189,11 @@ TEST(Wiring, MotorsThatAllTurnTheOtherWayStopTheBase) {
   }
 }
 
-/// Two motors that are told what the other is: no single motor explains it, and forward the base goes as it
-/// should. It is stopped when it is far faster than it may, be it by 0.2 m/s or twice the 0.15 m/s, has
-/// gained for a `dwell` by then with 1 m/s^2 at most, and for as many choices of the brake, none of which is
-/// right: they drive it with the force of the stop.
+/// Each of two motors gets the command of the other. No single motor explains the motion, and forward the
+/// base goes as it should. The guard stops the base when it is far faster than allowed: by 0.2 m/s, or twice
+/// the 0.15 m/s. By then the base has gained speed for a `dwell` with 1 m/s^2 at most. It gains more during
+/// the choices of the brake, 6 x 0.04 s. None of them is right: they drive the base with the force of the
+/// stop.
 TEST(Wiring, TwoMotorsInEachOthersPlaceAreNotDrivenOn) {
   for (const auto& [task, robot] : {std::pair{"obstacle.yaml", "omni"},
                                     {"wall_align.yaml", "omni"},

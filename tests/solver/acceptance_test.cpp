@@ -124,8 +124,8 @@ TEST(Acceptance, SixtyFourRowsOnSixtyFourJoints) {
     state.q[j] = random.uniform(-1.0, 1.0);
     state.qd[j] = random.uniform(-0.2, 0.2);
   }
-  // A row for each joint's freedom, sixteen at a level: together they leave one acceleration, whatever the
-  // levels, and J qdd = b - dJ/dt qd says which.
+  // A row for each joint's freedom, sixteen at a level. Together they leave one acceleration, whatever the
+  // levels: J qdd = b - dJ/dt qd.
   std::vector<Row> rows;
   for (int i = 0; i < 64; ++i) {
     Row row;

@@ -1,5 +1,4 @@
-// What the drives can do, against the table of wheeled bases that a textbook gives: mobility, redundant rows,
-// motor rank.
+// Mobility, redundant rows and motor rank of the drives, against a textbook's table of wheeled bases.
 #include "zwang/solver/base_analysis.hpp"
 
 #include <gtest/gtest.h>

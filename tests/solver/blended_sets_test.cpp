@@ -52,8 +52,8 @@ bool is_equality(const Row& row) {
   return row.kind == RowKind::driver && std::isinf(row.weight);
 }
 
-// The commanded acceleration of a row of level 0 is the same with any rows below it, in any shares, whether
-// motors or the row's own force are at their limit or not.
+// The commanded acceleration of a row of level 0 does not depend on the rows below it, nor on their shares.
+// Motors or the row's own force may be at their limit.
 TEST(BlendedSets, ASharedRowOfTheHighestLevelAcceleratesAsItDoesAlone) {
   double worst = 0.0;
   int compared = 0;

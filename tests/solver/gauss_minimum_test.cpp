@@ -1,5 +1,5 @@
-// Gauss's principle itself: of all accelerations that keep the constraints, the solver's has the smallest
-// Zwang 1/2 (x - x_free)' M (x - x_free), with M and x_free from the dense oracle.
+// Gauss's principle: of all accelerations that keep the constraints, the solver's has the smallest Zwang. The
+// Zwang is 1/2 (x - x_free)' M (x - x_free), with M and x_free from the dense oracle.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>

@@ -1,4 +1,4 @@
-// What the answer may not depend on: where the world's frame stands, the order of rows, the units.
+// The solution must not depend on the place of the world's frame, the order of rows, or the units.
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>

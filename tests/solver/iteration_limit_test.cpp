@@ -41,7 +41,7 @@ bool is_finite(const Solution& s) {
   return finite;
 }
 
-/// What is wrong with a row's force; nothing, mostly.
+/// The error of a row's force, in words; empty: the force is inside its bounds.
 std::string beyond_bounds(const Row& row, const RowSolution& got, int lowest_level) {
   const bool is_one_sided = row.kind == RowKind::upper || row.kind == RowKind::lower;
   double low = row.lo;

@@ -1,5 +1,5 @@
-// What hangs on a joint, against the oracle's energies: its weight is the slope of the potential energy, and
-// its inertia twice the kinetic energy of the joint turning alone at 1 rad/s, or sliding at 1 m/s.
+// The load on a joint, against the oracle's energies. Its weight is the slope of the potential energy. Its
+// inertia is twice the kinetic energy of the joint that turns alone at 1 rad/s, or slides at 1 m/s.
 #include "zwang/solver/joint_loads.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The solver's levels, softness and torque limits where a formula answers: a carriage of 10 kg on a rail, and
-// a skid-steered base that cannot push sideways.
+// The solver's levels, softness and torque limits against formulas. The robots are a carriage of 10 kg on a
+// rail, and a skid-steered base that cannot push sideways.
 #include <gtest/gtest.h>
 
 #include <algorithm>

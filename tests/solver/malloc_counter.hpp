@@ -1,4 +1,4 @@
-/// Counts heap calls of this thread between `start` and `stop`, by standing in for malloc: Eigen's own
+/// Counts heap calls of this thread between `start` and `stop`, in the place of malloc. So Eigen's own
 /// allocations count too, which a replaced operator new would not see. Not available under sanitizers, which
 /// own malloc themselves.
 #pragma once

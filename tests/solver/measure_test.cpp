@@ -1,5 +1,6 @@
-// What a constraint measures, against finite differences along a motion of the robot: ds, and the velocity
-// products of dds = a.(A_k - A_c) + gamma. And the rows that regions, features and speed limits need.
+// The measures of a constraint, against finite differences along a motion of the robot. They are ds, and the
+// velocity products of dds = a.(A_k - A_c) + gamma. The rows of regions, features and speed limits are
+// tested, too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -205,8 +206,8 @@ TEST(Measures, AlongAPathHaveTheDerivativesThatTheirRowsSay) {
   EXPECT_GT(arcs, 60);  // of 120: few stand near the centre
 }
 
-// A base that goes around the centre of the arc keeps its place across it and its heading against it, and
-// the unit force along it is one of a newton, however far it is from the arc.
+// A base that goes around the centre of the arc keeps its place across the arc and its heading against it. A
+// unit force along the arc is one newton, at any distance of the base from the arc.
 TEST(Measures, AroundTheCentreOfAnArcNothingButTheWayAlongItGrows) {
   const solver::Model model = solver::test::mecanum({});
   for (const double radius : {0.5, 2.0, 3.0}) {

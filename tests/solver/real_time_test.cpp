@@ -1,4 +1,5 @@
-// What a control loop relies on: no heap call inside the step, and the same bits for the same input.
+// Properties that a control loop relies on: no heap call inside the step, and the same bits for the same
+// input.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,8 +17,8 @@
 namespace zwang::solver {
 namespace {
 
-/// A busy problem: three levels, a force row with a velocity range, bounded drivers, a soft row,
-/// limits on the sum of forces and on the speed, torque limits in reach.
+/// A busy problem of three levels. It has a force row with a velocity range, bounded drivers and a soft row.
+/// The sum of forces and the speed are limited, and torque limits are in reach.
 void pose(const Model& model, std::mt19937& random, State& state, ConstraintSet& set) {
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   state.base_twist.linear = {0.2 * number(random), 0.2 * number(random), 0.0};

@@ -18,7 +18,7 @@ struct Statuses {
   bool is_single() const { return bits != 0 && (bits & (bits - 1)) == 0; }
 };
 
-/// What the numbers cannot decide, because it is within their tolerance, stays open.
+/// A status that the numbers cannot decide, because it is within their tolerance, stays open.
 class StatusOracle {
  public:
   StatusOracle(const solver::Model& model, const std::vector<solver::Row>& rows, const OracleSolution& want)
@@ -72,8 +72,8 @@ class StatusOracle {
       return row.kind == solver::RowKind::sum && row.level <= level;
     });
   }
-  /// Whether a sum that the row adds to may be at its bound, or was when the row's level was solved: what a
-  /// lower level moved away since, the final torques do not tell.
+  /// Whether a sum that the row adds to may be at its bound, or may have been when the row's level was
+  /// solved. A lower level may have moved it away since, which the final torques do not show.
   bool may_sum_hold(int level) const {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const bool counts = rows_[k].kind == solver::RowKind::sum && rows_[k].level <= level;
@@ -81,7 +81,7 @@ class StatusOracle {
     }
     return false;
   }
-  /// The same of a motor.
+  /// Whether a motor may be at its limit, or may have been when the row's level was solved.
   bool may_motor_hold(int level) const { return motor_ != Bound::free || (level < lowest_ && has_limits_); }
 
   Statuses of_sum(std::size_t i) const {
@@ -140,7 +140,7 @@ class StatusOracle {
     } else {
       if (may_motor_hold(row.level)) out.add(Status::torque_limited);
       // A force that the motors make only together with others is left over, too.
-      // So is the force of a sum that acts by way of a limit above.
+      // The force of a sum that acts through a limit above is left over likewise.
       const bool is_left_over =
           !is_known || !want_.motors_reach_all || (by_sum && is_below_limits(row.level));
       if (is_left_over) out.add(Status::conflict);

@@ -45,8 +45,8 @@ struct Drawn {
   EncoderFault fault = EncoderFault::none;
   Onset onset;
   std::uint64_t seed = 0;  ///< of the plant's noise
-  /// [s] from the onset on until the pressed object is gone; the onset lies in a press, at this share of all
-  /// the presses of a healthy run. Negative: objects stay.
+  /// [s] from the onset on until the pressed object is gone. The onset lies in a press, at `press_share` of
+  /// all the presses of a healthy run. Negative: objects stay.
   double leaves_after = -1.0;
   double press_share = 0.0;
 };

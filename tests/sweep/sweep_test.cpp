@@ -71,7 +71,7 @@ TEST(Sweep, EncodersThatFailAtAnyMomentKeepTheBounds) {
 }
 
 /// Tasks with an arm, objects that give way and the like. docs/limits.md states their bounds, which are
-/// wider: the arm's own speed is bounded by its joints' limits, and nothing hits harder than that.
+/// wider. The arm's own speed is bounded by its joints' limits, and no hit is harder than at that speed.
 TEST(Sweep, EncodersThatFailInAnyOtherTaskAreMeasured) {
   const int runs = test::is_long() ? 300 : 1;
   const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
@@ -84,14 +84,14 @@ TEST(Sweep, EncodersThatFailInAnyOtherTaskAreMeasured) {
   if (test::is_long()) print(3, 0, Which::others, results, std::cout);
 }
 
-/// In the corner of two walls. Coarse encoders count nothing of a wheel that one of them holds; two walls
-/// press together along the direction of one motor for up to 53 ms.
+/// In the corner of two walls. Coarse encoders count nothing of a wheel that one of the walls holds. Both
+/// walls press together along the direction of one motor for up to 53 ms.
 TEST(Sweep, ABaseBetweenTwoWallsIsNotStopped) {
   for (const int index : {7, 22}) EXPECT_FALSE(run(draw(1, index, Which::healthy)).stopped) << index;
 }
 
-/// A padded wall in line with a wheel resists as its damper first and as its spring then: together for 40 ms
-/// as evenly as the wheel's command grows. A force that only takes energy is no motor's.
+/// A padded wall in line with a wheel resists first with its damper, then with its spring. Together they are
+/// as even as the growing command of the wheel for 40 ms. A force that only takes energy is no motor's.
 TEST(Sweep, APaddedWallIsNoReversedMotor) {
   EXPECT_FALSE(run(draw(7, 55, Which::healthy)).stopped);
 }

@@ -1,5 +1,5 @@
-/// Meaning: names, dimensions, clashes. What passes here and the physics can be lowered without another
-/// question.
+/// Meaning: names, dimensions, clashes. A file that passes these checks and the physics can be lowered
+/// without further checks.
 #pragma once
 
 #include <map>

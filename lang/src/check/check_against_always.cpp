@@ -1,4 +1,4 @@
-// What a task's drivers ask for and `always` does not allow.
+// W402: a task's driver asks for a value that `always` does not allow.
 #include <cmath>
 
 #include "check/context.hpp"
@@ -9,7 +9,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What a driver asks for, where it is known before the run.
+/// The value that a driver asks for, if it is known before the run.
 std::optional<double> asked(const CheckContext& context, const StatementText& statement) {
   if (statement.is_range) return std::nullopt;
   const bool is_known =

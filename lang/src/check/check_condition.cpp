@@ -35,7 +35,7 @@ class ConditionCheck {
     return condition;
   }
 
-  /// The same of an expression that has a value of the dimension.
+  /// The expression, if its value has the dimension `expected`. nullopt on an error.
   std::optional<Condition> check_value_of(const std::string& what, const Dimension& expected) {
     Condition expression = lowered();
     const Type& root = types_.back();

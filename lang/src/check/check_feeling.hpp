@@ -1,4 +1,4 @@
-/// What a base that feels no force cannot be asked for.
+/// Forces in a task file whose robot feels no force: E630, W635.
 #pragma once
 
 #include "check/context.hpp"

@@ -112,7 +112,7 @@ std::vector<std::string> interrupting_tasks(const CheckContext& context) {
 void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
                 const std::vector<Condition>& always_conditions) {
   check_ends(context, conditions);
-  // What an unreadable part may have used or led to is not known: no guesses on top of errors.
+  // An unreadable part may have used a name or led to a task. So a file with errors gets no further guesses.
   if (context.diagnostics.has_errors()) return;
   std::vector<std::string> entries = targets_of_always(context);
   entries.push_back(context.file.start.text);

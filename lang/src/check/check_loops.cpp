@@ -204,7 +204,7 @@ class Flutter {
   int steps_ = 20000;  ///< a file may be hostile
 };
 
-/// What `back` does not set back: a path and a time only grow.
+/// `back` resets neither a path nor a time: both only grow.
 bool is_resumed(const Demanded& demanded) {
   const ExpressionNode& node = *demanded.node;
   const bool adds_up = node.op == Op::elapsed || (node.op == Op::of_frame && function_of(node).adds_up);

@@ -184,7 +184,7 @@ class FrameOrder {
     return static_cast<int>(std::find_if(paths.begin(), paths.end(), is_it) - paths.begin());
   }
 
-  /// What it may hang on are pose signals, too.
+  /// A frame may hang on another frame or on a pose signal, so the message offers both.
   std::optional<int> find_parent(const Word& name) {
     const Symbols& symbols = context_.symbols;
     if (!name.exists() || symbols.find_frame(name.text) || !symbols.has_robot)

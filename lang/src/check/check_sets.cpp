@@ -68,7 +68,7 @@ void check_set_output(CheckContext& context, const SetText& set) {
   if (!truth_of(set.value)) context.diagnostics.add(wording::output_needs_truth(set.value.span, what, false));
 }
 
-/// What a node can be while the signal is not known. A number: known or not.
+/// The values that a node can have while the signal is not known. A number is only known or not.
 struct Possible {
   bool no = false, yes = false, unknown = false;
 };

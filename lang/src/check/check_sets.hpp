@@ -1,4 +1,4 @@
-/// What `set` may need that is not known by then.
+/// Values that a `set` needs and that may not be known when it is carried out.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a scene gives for the signals that a task file declares.
+// Whether a scene gives the signals that a task file declares, with their types.
 #include <algorithm>
 
 #include "check/context.hpp"
@@ -10,7 +10,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What a number of the scene's signal measures; nullopt where it gives none.
+/// The dimension of a scene's number signal. nullopt: the signal gives no number.
 std::optional<Dimension> number_of(const SceneSignal& signal) {
   if (signal.beyond) return std::nullopt;
   if (signal.kind == SceneSignalKind::distance) return dimension::length;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What a node can be: a number in [low, high]; of a truth value 0, 1 or both.
+/// The values that a node can have: numbers in [low, high]. Of a truth value: 0, 1 or both.
 struct Interval {
   double low = -infinity;
   double high = infinity;

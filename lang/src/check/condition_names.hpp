@@ -1,4 +1,4 @@
-/// What the names in a condition stand for, and what they measure.
+/// The meaning and the dimension of the names in a condition.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace zwang::lang {
 
-/// What an expression yields: true or false, or a quantity. Bad: already complained of.
+/// The type of an expression's value: a truth value, or a quantity. Bad: a diagnostic was already written.
 struct Type {
   bool is_bad = false;
   bool is_boolean = false;

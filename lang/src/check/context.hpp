@@ -1,4 +1,4 @@
-/// What the checks share, and the questions that all of them ask.
+/// State that the checks share, and questions that all of them ask.
 #pragma once
 
 #include <map>
@@ -44,8 +44,8 @@ bool is_frame_set(const TaskFile& file, const std::string& frame);
 std::string base_of(const CheckContext& context);
 
 void check_parameters(CheckContext& context);
-/// What somebody else than the task file gives a parameter, SI; writes E105, E201 to E204. nullopt on an
-/// error, and silently where the declaration itself is bad.
+/// The SI value that a scene, a scenario or the command line gives a parameter. Writes E105, E201 to E204.
+/// nullopt on an error. If the declaration itself is bad, nullopt without a diagnostic.
 std::optional<double> check_parameter_value(const ParameterSymbol& symbol, const Word& text,
                                             Diagnostics& diagnostics);
 /// Whether the signals of the scene are what the task file takes them for: E701, W702, W703.
@@ -88,7 +88,8 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets);
 std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
                                          const std::vector<GroupText>& groups, Dimension* compared = nullptr,
                                          std::vector<Dimension>* of_nodes = nullptr);
-/// The same of an expression that has a value of the dimension `expected`; `what` names it in messages.
+/// Checks an expression whose value must have the dimension `expected`. nullopt on an error. `what` names the
+/// expression in messages.
 std::optional<Condition> check_expression(CheckContext& context, const ConditionText& text,
                                           const std::vector<GroupText>& groups, const std::string& what,
                                           const Dimension& expected);

@@ -59,7 +59,7 @@ void for_each_set(const TaskFile& file, const Use& use) {
   }
 }
 
-/// What a `set` gives a parameter without a range: a constant, or the values of another parameter.
+/// The value that a `set` gives a parameter without a range: a constant, or the values of another parameter.
 struct Given {
   ParameterSymbol* parameter = nullptr;
   const ParameterSymbol* source = nullptr;

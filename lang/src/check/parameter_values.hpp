@@ -1,4 +1,4 @@
-/// What a place asks of every value that a parameter may take there.
+/// Requirements of a place on every value that a parameter may take there.
 #pragma once
 
 #include <string>
@@ -24,14 +24,14 @@ struct Need {
 /// E206 where a parameter may take a value that breaks the bound. Of one without a range, the bound is kept
 /// for whoever sets it later. The value at the start keeps it: that was asked before.
 void require(CheckContext& context, const ValueText& value, const Need& need);
-/// The same of a value that must be above 0, or must not be below.
+/// `require` of a value that must be above 0, or, with `zero_allowed`, not below 0.
 void require_positive(CheckContext& context, const ValueText& value, const std::string& what,
                       bool zero_allowed);
-/// The same of two values, `low` not above `high`.
+/// `require` of two values: `low` must not be above `high`.
 void require_order(CheckContext& context, const ValueText& low, const ValueText& high,
                    const std::string& rule);
 
-/// What `set` may make of parameters that have no range. Asked once all are declared.
+/// Gathers the values that `set` gives parameters without a range. Asked once all are declared.
 void gather_set_values(CheckContext& context);
 
 /// `0.2 m/s`, `-$pace`: as the author wrote a quantity or a parameter.

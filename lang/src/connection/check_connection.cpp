@@ -89,8 +89,8 @@ void check_order(const CommandSink& command, const Program& program, Diagnostics
   }
 }
 
-/// A torque F that is held accelerates a base of mass m by F/m: after v m/F its wheels turn as fast as they
-/// can, v. A receiver that waits so long stops a base that has run away.
+/// A held force F accelerates a base of mass m by F/m. After v m/F its wheels turn at their largest speed v.
+/// A receiver that waits so long stops a base that has run away.
 void check_held_torque(const CommandSink& command, const Robot& robot, Diagnostics& diagnostics) {
   if (!command.timeout || *command.timeout > given_up_after) return;  // told already
   if (robot.model.has_fixed_base()) return;

@@ -1,4 +1,4 @@
-/// What a connection file says, part by part.
+/// The parts of a connection file.
 #pragma once
 
 #include <filesystem>

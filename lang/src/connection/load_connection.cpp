@@ -30,7 +30,7 @@ std::vector<NamedTopic> topics_of(const Connection& c) {
   return all;
 }
 
-/// Two signals may read one topic, as two sectors of a scan. What is sent has its own.
+/// Two signals may read one topic, as two sectors of a scan. Each sent message has a topic of its own.
 void check_topics(const Connection& connection, Diagnostics& diagnostics) {
   const std::vector<NamedTopic> all = topics_of(connection);
   for (std::size_t i = 0; i < all.size(); ++i) {

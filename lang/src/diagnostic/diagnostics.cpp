@@ -14,8 +14,9 @@ auto order_of(const Diagnostic& d) {
   return std::make_tuple(d.span.exists() ? 0 : 1, d.span.source, d.span.begin.line, d.span.begin.column);
 }
 
-/// Places first: they tell most apart, and thousands are compared where a file is nothing but mistakes. What
-/// is wrong with a key of a template's body is the same in every task that uses it.
+/// The places are compared first: they tell most diagnostics apart, and a file full of mistakes needs
+/// thousands of comparisons. An unknown key (E101) of a template's body counts once for all tasks that use
+/// the template.
 bool is_same(const Diagnostic& a, const Diagnostic& b) {
   return a.span.begin.line == b.span.begin.line && a.span.begin.column == b.span.begin.column &&
          a.span.source == b.span.source && a.code == b.code && (a.message == b.message || a.code == "E101");
@@ -38,8 +39,8 @@ bool is_before(const Position& a, const Position& b) {
   return std::tie(a.line, a.column) < std::tie(b.line, b.column);
 }
 
-/// Who forgets a unit, or takes a wrong one, does so in the whole list. Wrong ones are alike when the same is
-/// said of them.
+/// An author who forgets a unit, or writes a wrong one, does so in the whole list. Two wrong units are alike
+/// if their message and help are the same.
 bool are_units_alike(const Diagnostic& a, const Diagnostic& b) {
   return a.code == b.code && (a.code == "E201" || (a.message == b.message && a.help == b.help));
 }

@@ -17,8 +17,9 @@ std::string place(const Diagnostics& diagnostics, const Span& span) {
          std::to_string(span.begin.column);
 }
 
-/// Code points of `line` in [begin, end), a tab as one space, what must not reach a terminal as `?`: one
-/// column each, as `Position` counts them. There a byte that continues no character has no column of its own.
+/// Code points of `line` in [begin, end), one column each, as `Position` counts them. A tab becomes one
+/// space, and a character that must not reach a terminal becomes `?`. A byte that continues no character has
+/// no column of its own.
 std::string columns(std::string_view line, std::size_t begin, std::size_t end) {
   std::string result;
   std::size_t column = 0;

@@ -5,8 +5,8 @@
 
 namespace zwang::lang {
 
-/// How far from an exact place a wheel may be drawn. 5 mm are a tenth of the smallest wheelbase that
-/// drives, 2 deg the looseness of a hand-built axle. A wheel that is farther off is meant to be there.
+/// How far from an exact place a wheel may be drawn. 5 mm are a tenth of the smallest wheelbase that drives.
+/// 2 deg are the looseness of a hand-built axle. A wheel that is farther off is meant to be there.
 inline constexpr double most_wheel_offset = 5e-3;                          // [m]
 inline constexpr double most_axis_angle = 2.0 * std::numbers::pi / 180.0;  // [rad]
 /// From here on it is told: a tenth of what changes a robot's motion by less than encoders see.

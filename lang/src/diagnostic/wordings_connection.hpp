@@ -1,4 +1,4 @@
-/// What is said about connection files.
+/// Diagnostics of connection files.
 #pragma once
 
 #include <string>

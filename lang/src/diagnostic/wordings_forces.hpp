@@ -1,4 +1,4 @@
-/// What is said about forces that are measured or estimated, and about the drivers that follow them.
+/// Diagnostics of measured and estimated forces, and of the drivers that follow them.
 #pragma once
 
 #include <string>

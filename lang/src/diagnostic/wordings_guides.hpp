@@ -1,4 +1,4 @@
-/// What is said about objects on hinges, slides and casters, about objects that lean, and about hands.
+/// Diagnostics of objects on hinges, slides and casters, of leaning objects, and of hands.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// What is said of things that are written in another program's way: a list for a mapping, a mapping for a
+/// Diagnostics of things that are written in another program's way: a list for a mapping, a mapping for a
 /// range, a heading in a place.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// What is said about a robot that cannot do what a file asks: E404, E406, W407 and the 600s.
+/// Diagnostics of a robot that cannot do what a file asks: E404, E406, W407 and the 600s.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ Diagnostic held_axis(const Span& span, const std::string& axis);
 Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const std::string& frame_ahead);
 /// `can_turn`: what cannot go sideways can be turned and driven ahead.
 Diagnostic no_motor_along(const Span& span, const std::string& axis, bool can_turn);
-/// The same of an axis of a frame in the world, `in`: it lies across the base wherever the base has turned
-/// so.
+/// No motor pushes along an axis of `in`, a frame of the world, at the headings where the axis lies across
+/// the base.
 Diagnostic no_motor_across(const Span& span, const std::string& axis, const std::string& in, bool can_turn);
 Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
                      const std::string& frame_ahead);

@@ -1,4 +1,4 @@
-/// What is said about the cells of a scenario.
+/// Diagnostics of the cells of a scenario.
 #pragma once
 
 #include <string>

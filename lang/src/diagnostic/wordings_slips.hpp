@@ -1,5 +1,5 @@
-/// What is said about slips that have a literal remedy: letters of a word processor, words in capitals, the
-/// wrong kind of file.
+/// Diagnostics of slips that have a literal fix: letters of a word processor, words in capitals, the wrong
+/// kind of file.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ Diagnostic odd_letters(const Span& span, const std::string& text, const std::str
 /// `{at: end, elapsed > 2 s}` for `{at: end, that: elapsed > 2 s}`.
 Diagnostic condition_without_key(const Span& span, const std::string& what, const std::string& key,
                                  const std::string& condition);
-/// What drives an axis is no quantity, and `meant` is empty or the name of a signal that is.
+/// The driver of an axis is no quantity. `meant` is the name of a signal that the author may have meant, or
+/// empty.
 Diagnostic unknown_driver(const Span& span, const std::string& name, const std::string& meant,
                           bool is_position);
 /// `$here` for `here`.
@@ -79,8 +80,7 @@ Diagnostic partner_rolls(const Span& span, const std::string& hook, const std::s
                          const Span& object);
 /// Of the scene, and the task file has none of this name.
 Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant);
-/// A condition reads a signal for which the scene in use gives nothing.
-/// What a signal that the scene does not give is for.
+/// The use of a signal that the scene does not give.
 enum class UnfedUse { condition, motion, wrench };
 Diagnostic unfed_signal(const Span& span, const std::string& name, UnfedUse use, const Span& declared);
 /// A pose signal's name where a frame belongs.
@@ -96,10 +96,11 @@ Diagnostic urdf_for_robot_file(const Span& span);
 
 /// `written` with the unit that quantities of `expected` usually have, where it lacks one: `20` as `20 deg`.
 std::string with_unit(const std::string& written, const Dimension& expected);
-/// Lines of a group, from `key` on, that stand in the column of the groups' names; `group` is the name above
-/// them, empty: there is none.
+/// Lines of a group, from `key` on, that stand in the column of the groups' names. `group` is the name above
+/// them. Empty: there is none.
 Diagnostic not_indented(const Span& span, const std::string& key, const std::string& group);
-/// The same of the lines of a task.
+/// Lines of a task, from `key` on, that stand in the column of the tasks' names. `task` is the name above
+/// them.
 Diagnostic not_indented_in_task(const Span& span, const std::string& key, const std::string& task);
 /// The lines of a group in a task, without `constraints`.
 Diagnostic group_in_a_task(const Span& span, const std::string& key);

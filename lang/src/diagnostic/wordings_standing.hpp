@@ -1,5 +1,4 @@
-/// What is said about how a robot stands before it moves, and of joints that cannot be what the robot file
-/// makes of them.
+/// Diagnostics of a robot that stands before it moves, and of joints that cannot be what the robot file says.
 #pragma once
 
 #include <string>
@@ -53,7 +52,7 @@ Diagnostic holds_nothing(const Span& span, const std::string& what);
 /// The wheel slides sideways, `holds: [rolling]`, and hangs on the moving joint `carrier`.
 Diagnostic steered_skid(const Span& span, const std::string& wheel, const std::string& carrier,
                         const Span& declared);
-/// What a support that moves is, or hangs on.
+/// The moving part that a support is, or hangs on.
 enum class SupportOn { caster_wheel, ball, steered_link };
 /// Of `supports`: a link that joint `carrier` moves.
 Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
@@ -95,7 +94,7 @@ struct TinyMass {
 };
 /// Not empty.
 Diagnostic negligible_masses(const std::vector<TinyMass>& links);
-/// What `inertias` of the robot file has to say of a link.
+/// The keys that a link's entry in `inertias` of the robot file needs.
 struct InertiaEntry {
   std::string link;
   bool lacks_mass = false;
@@ -129,7 +128,7 @@ Diagnostic limit_without_width(const Span& span, const std::string& what);
 /// `depth`: how far one of the two has to move for them to part. [m]
 Diagnostic starts_inside(const Span& span, const std::string& robot, const std::string& other, double depth);
 
-/// What the simulated plant refuses to start with.
+/// The simulated plant refuses to start; `reason` says why.
 Diagnostic plant_refuses(const Span& span, const std::string& reason);
 
 /// Of an axis or a group.

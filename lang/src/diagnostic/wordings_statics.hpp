@@ -1,4 +1,4 @@
-/// What is said of a base that could tip over, lose its grip or hit something: E640, W640, W642, W644, N603.
+/// Diagnostics of a base that could tip over, lose its grip or hit something: E640, W640, W642, W644, N603.
 #pragma once
 
 #include <string>

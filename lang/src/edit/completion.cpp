@@ -166,7 +166,7 @@ class Proposer {
     return place_.keys.size() > 1 && place_.keys[place_.keys.size() - 2] == key;
   }
 
-  /// What the function in front of the parenthesis takes.
+  /// Proposes the names that the function in front of the parenthesis takes.
   void add_argument_of(std::string_view text) {
     text.remove_suffix(1);
     std::size_t begin = text.size();

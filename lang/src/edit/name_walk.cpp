@@ -63,7 +63,7 @@ std::optional<Span> NameWalk::span_of(const Node& scalar, std::size_t begin, std
   return Span{document_.source, positions[begin], positions[end]};
 }
 
-/// What a word may name, in the parenthesis of a function or outside of any.
+/// The kinds of names that a word may have, in the parenthesis of the function `called` or outside of any.
 std::vector<NameKind> kinds_in(const ConditionFunction* called) {
   if (called != nullptr && called->argument == FunctionArgument::task) return {NameKind::task};
   if (called != nullptr && called->argument == FunctionArgument::signal) return {NameKind::signal};

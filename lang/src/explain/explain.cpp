@@ -11,7 +11,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What the heading of an example says of where it is cut from.
+/// The words in the heading of an example that name the part of a file it shows.
 struct Whereabouts {
   ExcerptOf part;
   std::string_view words;
@@ -40,7 +40,8 @@ ExcerptOf part_of(std::string_view words) {
   return ExcerptOf::nothing;
 }
 
-/// What stands before `mark`, which is left out of `text` with it; all of it where there is no such mark.
+/// Returns the text before `mark`, and removes it and the mark from `text`. Without a mark it returns all of
+/// `text`.
 std::string_view take_before(std::string_view& text, std::string_view mark) {
   const std::size_t end = text.find(mark);
   const std::string_view before = text.substr(0, end);

@@ -77,8 +77,8 @@ struct LaidLine {
   std::size_t width() const { return static_cast<std::size_t>(indent) + count_code_points(text); }
 };
 
-/// Lines that start an entry stand at their depth; lines that go on keep their distance from the line that
-/// they belong to, so that what was aligned stays so.
+/// Lines that start an entry stand at their depth. A continuation line keeps its distance from the line that
+/// it belongs to, so that aligned text stays aligned.
 std::vector<LaidLine> laid_out(const std::vector<LineTokens>& lines) {
   std::vector<LaidLine> result;
   const LineTokens* owner = nullptr;

@@ -110,7 +110,7 @@ class Tokenizer {
     }
   }
 
-  /// What lies between scalars: brackets, commas, colons, dashes; never a quote or a letter.
+  /// Adds the characters between scalars: brackets, commas, colons, dashes; never a quote or a letter.
   void add_punctuation(std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; ++at) {
       const char c = text_[at];

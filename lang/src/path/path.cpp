@@ -44,7 +44,7 @@ std::vector<double> turns_of(const std::vector<Point>& points, bool is_closed) {
   return turns;
 }
 
-/// What a fillet of radius 1 takes of the lines on both sides of each point.
+/// The length that a fillet of radius 1 cuts from the lines on both sides of each point.
 std::vector<double> cuts_of(const std::vector<double>& turns) {
   std::vector<double> cuts;
   for (const double turn : turns) cuts.push_back(std::tan(0.5 * std::abs(turn)));

@@ -1,5 +1,5 @@
-// W612: the force limit of a base is not its arm's. A row that moves a frame of the arm against the world
-// pushes with all joints, the wheels' too, as hard as its own force range allows:
+// W612: the force limit of a base is not its arm's. If a row moves a frame of the arm against the world, it
+// pushes with all joints, the wheels' too. Its own force range is the only bound:
 //
 //   tau = J' f        J: of the arm's frame, |f| <= its own range, whatever the rows of the base may spend
 //

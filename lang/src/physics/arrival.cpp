@@ -27,7 +27,7 @@ namespace {
 using solver::Quantity;
 using solver::Vector3;
 
-/// What the file itself says; infinite where it says nothing. [m/s]
+/// The speed [m/s] that the file itself gives the axis. Infinite: the file gives none.
 double said_speed(const PlannedTask& plan, const PlannedAxis& axis) {
   const std::optional<solver::Range>& range = axis[Quantity::velocity];
   double most = plan.speed_limit(axis);
@@ -79,8 +79,8 @@ double speed_after(double way, const PlannedAxis& axis, double mass, double acce
   return 0.0;
 }
 
-/// The most that the driver presses with in any state: m a, a of its target or of the acceleration limit, and
-/// no more than the motors make and the force range leaves. [N]
+/// The largest force [N] of the driver in any state: m a, with a of its target or of the acceleration limit.
+/// The motors and the force range bound it.
 double most_pressed(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures) {
   const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
   double a = std::min(acceleration_limit(plan, axis, sign, true).most, figures.force / figures.mass);

@@ -4,7 +4,7 @@
 //   v_y = v sin psi,  so that  v_y = 0  asks for  v = 0
 //
 // as soon as the base is askew by psi, however little. The row then takes as much force as it needs to hold
-// all motion, so it holds the other axis, too, and the push of its force driver.
+// all motion. So it holds the other axis, too, and the push of its force driver.
 #include <algorithm>
 
 #include "diagnostic/wordings_physics.hpp"

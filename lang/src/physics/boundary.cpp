@@ -1,5 +1,5 @@
-// W607: a range of positions, or a region, that asks for more braking force than the motors have, or for one
-// that none of them has.
+// W607: a range of positions, or a region, that asks for more braking force than the motors have. It may also
+// ask for a force along an axis on which no motor pushes.
 //
 // A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's, else its
 // `stop`. The axis's force range over the effective mass bounds it. It uses
@@ -51,7 +51,8 @@ PlannedAxis own_axis(solver::Axis axis, const std::string& what, const Robot& ro
   return own;
 }
 
-/// What the base slides along and no motor pushes: askew to a boundary, it would have to brake there, too.
+/// An axis that the base slides along and no motor pushes along. If the base stands askew to a boundary, it
+/// has to brake along this axis, too.
 bool ask_motors(const Robot& robot, const Span& span, const std::string& what, Probe& probe,
                 Remarks& remarks) {
   for (const solver::Axis axis : own_axes) {

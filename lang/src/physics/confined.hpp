@@ -25,13 +25,13 @@ double farthest_along(const Confinement& confinement, const solver::Vector3& dir
 /// base is turned. [m]
 double most_outside(const Confinement& confinement, const Robot& robot, const solver::Vector3& point);
 
-/// What is left of an axis's position; nullopt where it is none of a point of the base along an axis that
-/// stands in the world. [m]
+/// The range [m] that a region leaves of an axis's position. nullopt: the axis moves no point of the base, or
+/// does not stand in the world.
 std::optional<solver::Range> left_of_position(const Confinement& confinement, const PlannedAxis& axis,
                                               const Robot& robot);
 
-/// The longest path of the base's origin in the region where the task drives it straight on and never back;
-/// infinite where it may turn or come back. `is_first`: the task begins at the start pose. [m]
+/// The longest path [m] of the base's origin in the region, if the task drives it straight on and never back.
+/// Infinite: the base may turn or come back. `is_first`: the task begins at the start pose.
 double longest_way(const Confinement& confinement, const PlannedTask& plan, Probe& probe, bool is_first);
 
 }  // namespace zwang::lang

@@ -34,7 +34,7 @@ namespace {
 
 using solver::Quantity;
 
-/// What is known of a measured number, and why.
+/// The known bounds of a measured number, and their reason.
 struct Known {
   Bounds bounds;
   std::string by;  ///< path of the range, `timeout`
@@ -44,7 +44,7 @@ struct Known {
   bool is_unknown = false;
 };
 
-/// What the file sets an output to, wherever.
+/// All values to which the file sets an output.
 std::vector<const ValueText*> values_set(const CheckContext& context, const std::string& output) {
   std::vector<const ValueText*> values;
   const auto gather = [&](const std::vector<SetText>& sets) {

@@ -16,7 +16,7 @@
 // bound.
 //
 // N619: the demand of a position grows with the distance, so that its range is a bound for bases of any mass.
-// What an acceleration limit leaves of it is a note.
+// If an acceleration limit bounds the demand, N619 is written.
 #include <algorithm>
 #include <cmath>
 
@@ -128,7 +128,7 @@ void ask_without_range(const CheckContext& context, const PlannedTask& plan, con
 
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
-    // What builds up reaches its range in time.
+    // An integral (`build_up`) reaches the force range in time.
     const bool is_asked = axis.drives_motion() && axis.text != nullptr && !axis.is_soft &&
                           axis.time_constant > 0.0 && !axis.text->build_up;
     const std::optional<Demand> demand = is_asked ? demand_of(axis) : std::nullopt;

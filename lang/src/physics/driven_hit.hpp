@@ -19,8 +19,8 @@ struct Push {
   double at(double slower, double way) const;
 };
 
-/// A robot of the mass m arrives at v where a spring K and a damper c join it to an object of the mass M. Dry
-/// friction and a preload hold the object with H. It moves while more than H presses on it:
+/// A robot of the mass m meets an object of the mass M at the speed v. A spring K and a damper c join them.
+/// Dry friction and a preload hold the object with H. It moves while more than H presses on it:
 ///     m x'' = F - C,   M y'' = C - H,   C = K (x - y) + c (x' - y').
 struct DrivenHit {
   double mass = 0.0;          ///< m [kg]

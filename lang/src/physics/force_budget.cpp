@@ -1,8 +1,9 @@
-// N605: a force range bounds its own row. What other rows may add along the same direction e:
+// N605: a force range bounds its own row only. Other rows may add a force along the same direction e:
 //
-//   sum over rows j of F_j |e . e_j|      F_j: their force, their force range, else what the motors make
+//   sum over rows j of F_j |e . e_j|      F_j: their force, their force range, else the motors' largest force
 //
-// at the start pose. Nothing is said where a force range alone on that direction bounds the sum.
+// The sum is taken at the start pose. If a force range alone on that direction bounds the sum, there is no
+// note.
 #include <algorithm>
 #include <cmath>
 

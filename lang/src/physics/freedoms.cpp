@@ -102,7 +102,7 @@ void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
     if (!axis.driver || !counts(axis, probe)) continue;
     const AxisFigures* figures = probe.figures(axis);
-    // What cannot move at all and is not asked to is no row to count.
+    // An axis that cannot move and is not asked to move is not counted as a row.
     if (figures != nullptr && figures->is_reachable) levels[axis.level].push_back(&axis);
   }
   for (const auto& [level, rows] : levels) ask_level(level, rows, probe, remarks);

@@ -13,12 +13,13 @@
 //   K + min(m / T_c^2, alpha K k / (K + k)),   k_i = 1/(T_c T_i)
 //
 // of the object of the scene that makes it largest (struck.hpp). Without a scene the robot file's bumper is
-// the spring, undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the
-// speed at which it comes down to it; without a range it is told as it is. Where v is a bound the peak is
-// one, too: of all such the hardest is told, in tasks in which no forecast is.
+// the spring, undamped. If a force range bounds F, a peak above 2.5 times that bound is told. The note names
+// the speed at which the peak comes down to the bound. Without a range every peak is told. If v is only an
+// upper bound, so is the peak. The hardest of these peaks is told, in tasks without a forecast.
 //
-// A step of h follows springs up to h w = 0.3, w = sqrt(K/m). Of a stiffer one the simulation feels less, at
-// most 2 m v / h: the depth h v at which a step may find the contact counts as much as the speed.
+// A step of h follows springs up to h w = 0.3, w = sqrt(K/m). The simulation feels a smaller force of a
+// stiffer spring: at most 2 m v / h. There the depth h v at which a step may find the contact counts as much
+// as the speed.
 #include <algorithm>
 #include <cmath>
 

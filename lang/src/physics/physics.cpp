@@ -47,7 +47,7 @@ AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis&
 
 namespace {
 
-/// What is the same in all tasks.
+/// The inputs of the questions that are the same in all tasks.
 struct Asked {
   const std::optional<Scene>& scene;
   const ExitConditions& conditions;

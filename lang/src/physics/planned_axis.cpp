@@ -95,7 +95,8 @@ bool measure_axis(const CheckContext& context, const GroupText& group, const Axi
   return true;
 }
 
-/// What two frames measure between them they measure either way: the one on the robot moves.
+/// A distance or an angle between two frames is the same in both directions. The frame on the robot becomes
+/// the moving one.
 bool measure_feature(const CheckContext& context, const GroupText& group, PlannedAxis& axis) {
   const std::optional<int> index = context.symbols.find_feature(group.feature.text);
   if (!index || context.symbols.features[static_cast<std::size_t>(*index)].is_bad) return false;
@@ -131,7 +132,7 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
                                      const AxisText& text, bool in_always) {
   const bool is_feature = group.kind == GroupKind::feature;
   PlannedAxis axis;
-  // What could not be read may be what the model would be asked about.
+  // The part that could not be read may decide the answer, so the model is not asked.
   if (group.is_incomplete) return std::nullopt;
   const bool is_measured =
       is_feature ? measure_feature(context, group, axis) : measure_axis(context, group, text, axis);
@@ -283,8 +284,8 @@ std::optional<solver::Range> base_range(const std::vector<PlannedAxis>& axes, so
   return left;
 }
 
-/// Between two bounds the acceleration allowed along a direction e is least_i a_i / |e_i|: it is largest
-/// where the bound passes from one axis to the other, at the corners of the box of ranges.
+/// Between two bounds the acceleration allowed along a direction e is least_i a_i / |e_i|. It is largest at
+/// the corners of the box of ranges, where the bound passes from one axis to the other.
 void find_corners(std::vector<PlannedAxis>& axes) {
   const std::optional<solver::Range> x = base_range(axes, solver::Axis::x);
   const std::optional<solver::Range> y = base_range(axes, solver::Axis::y);

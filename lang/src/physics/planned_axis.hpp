@@ -1,4 +1,4 @@
-/// What a task says about its axes, as numbers that the model can be asked about.
+/// The axes of a task, as numbers that the model can be asked about.
 #pragma once
 
 #include <array>
@@ -109,9 +109,9 @@ struct Place {
 /// Where a frame is fixed: the parents stand before it in the table, so the chain ends.
 Place place_of(const CheckContext& context, int index);
 
-/// What can be read of the task; what is bad, and was complained of, is left out.
+/// The readable axes of the task. An axis with an error has its diagnostic and is left out.
 PlannedTask plan_task(const CheckContext& context, const TaskText& task);
-/// The same of what is in force in every task; without a task.
+/// The readable axes of `always`, which are in force in every task.
 PlannedTask plan_always(const CheckContext& context);
 
 }  // namespace zwang::lang

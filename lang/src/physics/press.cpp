@@ -6,8 +6,8 @@
 //   pressed = min(f, m a_max)         m = 1 / A Mc A', the effective mass along the axis
 //
 // taken from the solver with the force row and all acceleration ranges in force, so that ranges on other axes
-// count with their direction. What the base cannot along axes of the world as it stands at the start it may
-// once it has turned.
+// count with their direction. Along an axis of the world the base may press harder once it has turned than at
+// the start pose.
 //
 // A drive that is sent torque limits keeps the range of velocities, too, within its horizon t. So it presses
 // with m v_max / t at most.
@@ -64,7 +64,7 @@ double most_mass(const PlannedAxis& axis, const AxisFigures& figures, Probe& pro
   return std::max(figures.most_mass, whole != nullptr ? whole->most_mass : 0.0);
 }
 
-/// What the axis's own range of velocities leaves of a force behind a drive that is sent torque limits.
+/// Behind a drive that is sent torque limits, the axis's own range of velocities bounds its force.
 void ask_speed_of_press(const PlannedAxis& axis, const AxisFigures& figures, Probe& probe, Remarks& remarks) {
   const Drive& drive = probe.robot().drive;
   const auto& range = axis[solver::Quantity::velocity];

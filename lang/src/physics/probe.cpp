@@ -193,7 +193,7 @@ bool Probe::look(const solver::AxisConstraint& constraint, const solver::State& 
   return true;
 }
 
-/// Along the direction e in the plane the inverse of the effective mass is e' W e, with W = A Mc A' of the
+/// Along the direction e in the plane the inverse of the effective mass is e' W e. W is A Mc A' of the
 /// point's x and y. Three looks give W, and its eigenvectors point along
 ///
 ///   1/2 atan2(2 W_xy, W_xx - W_yy)        and square to that

@@ -28,20 +28,20 @@ struct AxisFigures {
   std::vector<double> masses, forces;  ///< of each configuration and direction
 };
 
-/// What a force driver presses with in one configuration.
+/// The force of a force driver in one configuration.
 struct Pressed {
   double force = 0.0;   ///< that way [N] or [N m]
   double motors = 0.0;  ///< that they make there [N] or [N m]
   double mass = 0.0;    ///< effective [kg] or [kg m^2]
 };
 
-/// Everything is computed at rest, in `configurations()`. What can be reached at all is also tried at other
-/// headings.
+/// Everything is computed at rest, in `configurations()`. Whether an axis can be reached at all is also tried
+/// at other headings.
 ///
-/// Nobody knows from where the robot comes to something beside it. So a distance to that is looked at in the
-/// base's x, y and both diagonals, and in the two directions in which its mass is least and most. It is also
-/// looked at where two acceleration ranges bind at once. The masses between `least_mass` and `most_mass` are
-/// those of all directions, the forces those of the directions named.
+/// Nobody knows from where the robot comes to an object beside it. So a distance to the object is probed in
+/// several directions. They are the base's x, y and both diagonals, and those of least and of most mass. It
+/// is also probed where two acceleration ranges bind at once. The masses between `least_mass` and `most_mass`
+/// are those of all directions, the forces those of the directions named.
 ///
 /// A file may be hostile, and validating it must end. So every look costs, and past the budget nothing is
 /// answered any more.
@@ -55,9 +55,9 @@ class Probe {
   const AxisFigures* figures(const PlannedAxis& axis);
   /// How many of the rows along the axes are independent, on the ground and in general position.
   int rank(const std::vector<const PlannedAxis*>& axes);
-  /// The same without the ground and the joints: of the bodies' own coordinates.
+  /// The rank without the ground and the joints: of the bodies' own coordinates.
   int kinematic_rank(const std::vector<const PlannedAxis*>& axes);
-  /// The same at the start pose alone.
+  /// The rank on the ground at the start pose alone.
   int rank_at_start(const std::vector<const PlannedAxis*>& axes);
   /// 1 where both axes are one motion, -1 where one is the other turned around, else 0.
   int alignment(const PlannedAxis& a, const PlannedAxis& b);
@@ -72,8 +72,8 @@ class Probe {
   /// The force of a force driver against something that blocks its axis, after the acceleration ranges among
   /// `limits` took their part. An entry for each configuration and direction in which it can be told.
   std::vector<Pressed> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
-  /// The same force at the start pose, however the base may head to the axis: in its x, y and both diagonals,
-  /// and where its mass is least and most.
+  /// `pressed` at the start pose, at any heading of the base to the axis. The directions are the base's x, y
+  /// and both diagonals, and those of least and of most mass.
   std::vector<Pressed> pressed_whatever_way(const PlannedAxis& axis, double force,
                                             const std::vector<PlannedAxis>& limits);
 
@@ -90,8 +90,8 @@ class Probe {
   solver::Vector3 direction(const PlannedAxis& axis) const;
   /// Whether the axis points up or turns the base over: what the ground itself holds.
   bool is_out_of_plane(const PlannedAxis& axis) const;
-  /// How far apart in height the two points of a distance are as long as the base moves; 0 where an arm or a
-  /// signal may change that. [m]
+  /// The difference in height [m] between the two points of a distance while the base moves. 0: an arm or a
+  /// signal may change it.
   double kept_height(const PlannedAxis& axis) const;
 
  private:
@@ -120,7 +120,7 @@ class Probe {
   /// nullopt where a feature has no direction: of a bearing, within 5 cm of its target.
   std::optional<solver::Row> row_along(const PlannedAxis& axis, const solver::State& state) const;
   int rank_at(const std::vector<const PlannedAxis*>& axes, const solver::State& state);
-  /// What a pass of the sweeps over the ground and `rows` more costs. False past the budget.
+  /// Pays for `passes` of the sweeps over the ground and `rows` more rows. False past the budget.
   bool pay(std::size_t rows, double passes);
 
   const Robot& robot_;

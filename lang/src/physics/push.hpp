@@ -1,4 +1,4 @@
-/// What a task presses with, and how a wall turns the base by it.
+/// The push of a task, and the levers by which a wall turns the base.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace zwang::lang {
 
-/// What presses the base ahead or sideways, and how hard at most.
+/// The axis that presses the base ahead or sideways, and its largest force.
 struct Push {
   const PlannedAxis* axis = nullptr;  ///< nullptr: nothing does
   double force = 0.0;                 ///< [N]
@@ -22,8 +22,8 @@ std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe);
 
 /// Beside the line of the push through the base's origin, the farthest corner of the footprint. [m]
 double longest_lever(const Push& push, Probe& probe);
-/// The same of the corner that touches a wall first, at which the base comes `askew` [rad] to either side:
-/// the shorter of both. [m]
+/// The lever [m] of the corner that touches a wall first, if the base comes `askew` [rad] to the wall. It is
+/// the shorter one of both sides.
 double lever_askew(const Push& push, double askew, Probe& probe);
 
 }  // namespace zwang::lang

@@ -13,7 +13,8 @@
 
 namespace zwang::lang {
 
-/// What was said once is not said again: a template's axis stands in several tasks, one of `always` in all.
+/// A remark about one place is added once. A template's axis stands in several tasks, an axis of `always` in
+/// all.
 class Remarks {
  public:
   explicit Remarks(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}

@@ -4,10 +4,10 @@
 //   scrubbed  mu g sum m_i |x_i - x| > F b
 //   round     the outline rests on another edge than the one ahead
 //
-// The right side is what a wall turns with: the push F at a corner of the footprint, b beside the line of the
-// push. The left side holds against it: wheels that slide sideways, each with its share m_i of the mass, x_i
-// ahead of the middle x of them all. E621: an exit asks for the rest of the heading. A base that is stuck
-// rests, too. W621: the heading is free, and no exit asks for it.
+// The right side is the moment of the wall: the push F at a corner of the footprint, b beside the line of the
+// push. The left side holds against it. It is the friction of wheels that slide sideways, each with its share
+// m_i of the mass, at x_i. x is the middle of all wheels. E621: an exit asks for the rest of the heading. A
+// base that is stuck rests, too. W621: the heading is free, and no exit asks for it.
 //
 // A heading that a row keeps still within a force range is turned, too, once the wall is stronger than both.
 #include <algorithm>
@@ -25,7 +25,8 @@ namespace {
 
 using solver::Quantity;
 
-/// What the floor holds a base with whose wheels slide sideways when it turns; 0 where none does. [N m]
+/// The moment [N m] of the floor's friction on a base whose wheels slide sideways when it turns. 0: no wheel
+/// slides.
 double scrub(const Robot& robot, double friction) {
   const solver::Model& model = robot.model;
   std::vector<double> ahead;
@@ -55,7 +56,7 @@ std::optional<Span> asked_by(const TaskText& task, const PlannedAxis& axis) {
   return std::nullopt;
 }
 
-/// What a row that keeps the axis still gives way to; none where it gives way to nothing. [N m]
+/// The moment [N m] above which a row that keeps the axis still gives way. nullopt: it never gives way.
 std::optional<double> holds_back(const PlannedAxis& axis) {
   const auto& range = axis[Quantity::force];
   if (!axis.stands_still() || !range || axis.text == nullptr) return std::nullopt;

@@ -20,8 +20,8 @@ void ask_grip_of_stop(const Span& span, const std::optional<Scene>& scene, Probe
 /// The axis at the start, in the axes of the base.
 solver::Vector3 direction_in_base(const PlannedAxis& axis, const Probe& probe,
                                   const std::optional<Scene>& scene);
-/// What a driver with a target, of a force, an acceleration or a velocity, asks for with this effective mass.
-/// [N] or [N m]
+/// The force [N] or moment [N m] that a driver asks for with this effective mass. The driver has a target: a
+/// force, an acceleration or a velocity.
 double asked_force(const PlannedTask& plan, const PlannedAxis& axis, double mass);
 
 }  // namespace zwang::lang

@@ -10,10 +10,10 @@
 //          counts from the footprint.
 //
 // Beside the distance a condition may ask for more, as long as a base on its way meets it. That is a speed
-// above a limit, a time that has passed, a way moved. A distance feature counts like a signal where its other
-// end hangs on a pose signal and no position is driven: a base arrives where it is driven to.
+// above a limit, a time that has passed, a way moved. A distance feature whose other end hangs on a pose
+// signal counts like a signal. It does not if a position is driven: a base arrives where it is driven to.
 //
-// Of two guards on one signal the wider one fires first. The task that it leads to says how fast the base is.
+// If two guards read one signal, the wider one fires first. The task that it leads to gives the base's speed.
 #include <algorithm>
 #include <cmath>
 

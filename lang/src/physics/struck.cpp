@@ -65,8 +65,8 @@ bool is_pushed(const Scene& scene, const std::string& object) {
                      [&](const ScenePush& push) { return push.object == object; });
 }
 
-/// Whether the robot comes to the end of the object's free way: it pushes harder than the object is held, or
-/// its energy carries both so far.
+/// Whether the robot comes to the end of the object's free way. Either it pushes harder than the object is
+/// held, or its energy carries both so far.
 bool reaches_end(const DrivenHit& hit, const GivesWay& gives) {
   const double against = gives.hold + gives.stiffness * gives.free_way;
   if (hit.push.most >= against) return true;

@@ -40,8 +40,9 @@ void ask_tick(const PlannedAxis& axis, double dt, Remarks& remarks) {
       wording::faster_than_the_tick(axis.time_constant_span, axis.path, axis.time_constant, dt, least));
 }
 
-/// With z = 1/T, s^2 + z s + z/t = 0 of a velocity has real roots from t = 4 T on, and
-/// s^3 + 2 z s^2 + z^2 s + z^2/t = 0 of a position from t = 6.75 T on.
+/// Let z = 1/T. The characteristic equation has real roots:
+///   velocity   s^2 + z s + z/t = 0                  from t = 4 T on
+///   position   s^3 + 2 z s^2 + z^2 s + z^2/t = 0    from t = 6.75 T on
 void ask_build_up(const PlannedAxis& axis, Remarks& remarks) {
   // An acceleration has no error to add up: E104.
   if (!axis.build_up || axis.driver == solver::Quantity::acceleration) return;

@@ -12,7 +12,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What the wheels can turn to along a planar axis of whatever is fixed to the base; nullopt of other axes.
+/// The speed that the wheels attain along a planar axis of a frame that is fixed to the base.
 struct Attainable {
   WheelSpeed speed;
   bool in_any_direction = false;  ///< the best of them

@@ -40,7 +40,8 @@ double share_along(const Robot& robot, const solver::Wheel& wheel, const Vector3
   return std::abs(held.dot(axis));
 }
 
-/// What the floor holds along the axis with mu = 1; 0: no motor pushes along it. [N]
+/// The largest force [N] of the floor on the driven wheels along the axis, with mu = 1. 0: no motor pushes
+/// along it.
 double grip(const Robot& robot, const Footing& footing, const Vector3& axis) {
   std::vector<double> shares(footing.points.size(), 0.0);
   for (std::size_t w = 0; w < footing.wheels; ++w) {
@@ -53,8 +54,8 @@ double grip(const Robot& robot, const Footing& footing, const Vector3& axis) {
   return held > rounding * footing.weight ? held : 0.0;
 }
 
-/// What a position driver asks for while it is far off: all that the ranges in force leave it. 0 where
-/// nothing but the motors bounds it. [N]
+/// The force [N] that a position driver asks for while it is far off. The ranges in force bound it. 0: only
+/// the motors bound it.
 double asked_from_afar(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures) {
   double most = 0.0;
   for (const double sign : {1.0, -1.0}) {

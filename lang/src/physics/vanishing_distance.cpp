@@ -17,7 +17,7 @@ namespace {
 /// In the plane: a mecanum base holds 0.1 mm and circles at 0.01 mm, with a control period of 1 ms. [m]
 constexpr double least_in_plane = 5e-5;
 
-/// What is to be reached, and where it is written.
+/// The distance that is to be reached, and its place in the file.
 struct Asked {
   double most;  ///< [m]
   Span span;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_askew = 5.0 * std::numbers::pi / 180.0;  // [rad]
 
-/// What an expression is of the parts of one wrench: along . F + constant.
+/// An expression as a function of the parts of one wrench: along . F + constant.
 struct ForceParts {
   int frame = -1;  ///< in whose axes they are; -1: there are none
   solver::Vector3 along = solver::Vector3::Zero();

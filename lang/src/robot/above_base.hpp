@@ -1,5 +1,5 @@
-/// What a URDF draws between the world and a base: joints that say how the base moves, which it does by
-/// itself.
+/// The joints that a URDF draws between the world and a base. They describe the base's motion, which the
+/// model of a base has by itself.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ struct AboveBase {
   std::vector<std::string> joints;  ///< likewise
 };
 
-/// Takes away the links above the last `floating` or `planar` joint of the chain that begins at the root, and
-/// the chain's joints as far as that one. A link of the chain has a negligible mass and no other joint below.
-/// The link below the last joint is the root then.
+/// Takes away the links above the last `floating` or `planar` joint of the chain that begins at the root.
+/// Takes away the chain's joints as far as that one, too. A link of the chain has a negligible mass and no
+/// other joint below. The link below the last joint is the root then.
 AboveBase drop_above_base(std::vector<XmlElement>& elements);
 
 }  // namespace zwang::lang

@@ -30,8 +30,8 @@ wording::Coupling coupling_of(const UrdfJoint& joint, const Urdf& urdf) {
   return {joint.joint.name, leader, urdf.find_joint(leader) != nullptr, joint.mimic->span};
 }
 
-/// A wheel that stands on the base and rolls without slip turns by r w = d (v + w_z x p) with its axle a,
-/// d = a x z: a row of (v_x, v_y, w_z).
+/// The rate of a wheel that stands on the base, as a row of (v_x, v_y, w_z). Let a be its axle and d = a x z.
+/// If the wheel rolls without slip, r w = d (v + w_z x p).
 std::optional<Eigen::RowVector3d> rate_of_wheel(const Robot& robot, const std::string& joint) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];

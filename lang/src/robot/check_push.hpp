@@ -6,7 +6,7 @@
 
 namespace zwang::lang {
 
-/// What the wheels of a robot of this mass can press against any floor with. [N]
+/// The largest force [N] of the wheels of a robot of this mass on any floor.
 double floor_holds(double mass);
 
 /// W872: torques that only the URDF states, and that no floor can take up.

@@ -1,8 +1,8 @@
 // W868: rollers that are mirrored. W869: a wheel whose axis lies across its own cylinder. W870: one with more
 // inertia than its mass has on the rim, m R^2.
 //
-// Each wheel's roller may be mounted either way. Asked are the greatest forces along x and y and the greatest
-// moment, of every arrangement: a base is mounted as the one with the greatest product.
+// Each wheel's roller may be mounted either way. Every arrangement has its greatest forces along x and y and
+// its greatest moment. A base is mounted as the arrangement with the greatest product of the three.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>

@@ -28,7 +28,7 @@ constexpr double wall_step = 1.7782794;             // a quarter of a decade
 constexpr double slowest = 0.05, fastest = 3000.0;  // [rad/s]
 constexpr double frequency_step = 1.03;
 
-/// What of the loop does not depend on the wall nor on the virtual robot.
+/// The factors of the loop that depend neither on the wall nor on the virtual robot.
 struct Frequency {
   Complex s, G, around;
 };

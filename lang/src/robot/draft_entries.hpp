@@ -24,7 +24,7 @@ std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels&
 /// As precise as a drawing.
 std::string in_millimetres(double metres);
 
-/// What the URDF lacks of wheels and of joints that steer, a line each. `has_none`: no wheel was found.
+/// A comment line for each wheel or steering joint that the URDF lacks. `has_none`: no wheel was found.
 std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& found, bool has_none);
 
 /// Of a joint in that comment: it stands nowhere in the file.

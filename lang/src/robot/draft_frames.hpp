@@ -1,4 +1,4 @@
-/// What a drafted robot file says of places: the outline, and the frames that tasks name.
+/// The places of a drafted robot file: the outline, and the frames that tasks name.
 #pragma once
 
 #include <string>

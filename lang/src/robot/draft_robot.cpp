@@ -23,7 +23,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What stands in the open places.
+/// The text in the open places.
 struct Filling {
   std::string radius = fill_in, effort = fill_in, footprint = fill_in, back = fill_in;
   std::string kind = fill_in;                       ///< of four wheels that may have rollers

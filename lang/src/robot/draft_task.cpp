@@ -202,14 +202,15 @@ class Fitting {
     }
   }
 
-  /// By I w' = m d v' a mass that lies d beside the base's origin turns a base that nothing holds by m d s /
-  /// I on its way s.
+  /// A mass that lies d beside the base's origin turns a base that nothing holds: I w' = m d v'. On its way s
+  /// the base turns by m d s / I.
   bool is_turned_by_its_mass() const {
     if (!(fit_.mass > 0.0) || !(fit_.effective_inertia > 0.0)) return false;
     return fit_.mass * fit_.centre.norm() * wall_gap / fit_.effective_inertia > most_turn_by_itself;
   }
 
-  /// A base on one axle whose mass lies behind it, or beside it, turns by itself as it drives ahead:
+  /// If the mass of a base on one axle lies behind or beside the axle, the base turns by itself as it drives
+  /// ahead:
   ///   I w' = -m x v w + m y v'.
   /// A moment that is bounded holds it. The wall still turns it: the least push has twice that moment about
   /// the nearer end of the edge ahead.
@@ -255,10 +256,10 @@ class Fitting {
     return std::min(longest, std::sqrt(2.0 * askew_ * fit_.effective_inertia / (force_of(20.0) * lever())));
   }
 
-  /// As the base bounces off the wall it is slower than the speeds v = 5 mm/s and w = 0.5 deg/s of the exit
-  /// for
-  ///   t = 2 v m / F   and   t = 2 w I / (F d),
-  /// with the force F at the corner that touches first, d beside the origin. Half as much again tells rest.
+  /// The time [s] for which the base has to be slower than the exit's speeds v = 5 mm/s and w = 0.5 deg/s.
+  /// As the base bounces off the wall, it is slower for
+  ///   t = 2 v m / F   and   t = 2 w I / (F d)
+  /// F is the force at the corner that touches first, d beside the origin. Half as much again tells rest.
   double still_for() const {
     constexpr double v = 5e-3, w = 0.5 * degree_of_start, shipped = 0.2;
     Eigen::Vector2d first{0.0, 0.0};

@@ -22,7 +22,7 @@ std::string parse_choice(const Node* node, const std::string& key, const std::ve
   return words.front();
 }
 
-/// What a drive that takes torques has no use for.
+/// Refuses the keys that a drive which takes torques has no use for.
 void refuse_beside_torque(MapReader& map, Diagnostics& diagnostics) {
   for (const char* key : {"as", "rate", "delay", "time_constant", "integral_time", "torque_limit"}) {
     if (const Node* node = map.optional(key))

@@ -12,8 +12,8 @@ namespace zwang::lang {
 enum class DriveKind { none, differential, rollers_or_skid, omni, swivels, car, other };
 
 DriveKind drive_of(const std::vector<DraftWheel>& wheels);
-/// The direction [rad] that wheels with parallel axles roll to, in the base: in (-90, 90] deg, 0 where it is
-/// ahead or where the base has no such direction.
+/// The rolling direction [rad] of wheels with parallel axles, in the base, within (-90, 90] deg. 0: it is
+/// ahead, or the base has no such direction.
 double heading_of(DriveKind drive, const std::vector<DraftWheel>& wheels);
 
 std::string in_words(DriveKind drive, const std::vector<DraftWheel>& wheels);

@@ -265,7 +265,7 @@ std::vector<ExactPlace> exact_places(const Model& model) {
   return ExactWheels(model).places();
 }
 
-/// A body's pose P is that of its joint, O, behind the pose A of the link that it hangs on:
+/// P is the pose of a body, A that of its parent link, and O that of its joint in the parent link:
 ///   P = A O,   so that   O' = A^-1 P' = O P^-1 P'
 void stand_wheels_exactly(const Model& drawn, const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
   std::vector<wording::Deviation> told;

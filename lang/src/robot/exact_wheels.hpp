@@ -1,16 +1,18 @@
 /// Wheels that nearly stand where the ground's directions depend on each other, put where they do exactly.
 ///
-/// A plain wheel at P with its axis along a lets the base's planar twist V = (vx, vy, w) no motion along a:
+/// A plain wheel stands at P with its axis along a. So the base's planar twist V = (vx, vy, w) has no motion
+/// along a:
 ///   (a, P x a) . V = 0.
 /// Two wheels on one axle say this twice, and the base keeps two motions. A wheel 13 um or 0.05 deg beside
 /// the axle says something else, in exact arithmetic: the base could only drive ahead. A drawing is rounded,
 /// an axle is not, so the nearest place on one axle is what the drawing means:
 ///
-///   1. an axis that nearly is level, or nearly along x or y of the base, is so; that of a swivel, upright
-///   2. wheels that nearly share an axle on what carries them do, and an axle that nearly meets the axis
-///      that steers it meets it; a wheel alone stands right below
-///   3. axles of base and steered wheels that nearly coincide while all joints are at 0 do, and run through
-///      the base's origin if they nearly do
+///   1. An axis that is nearly level, or nearly along x or y of the base, is exactly so. The axis of a swivel
+///      is upright.
+///   2. Wheels that nearly share an axle on what carries them share it. An axle that nearly meets the axis
+///      that steers it meets it. A wheel alone stands right below.
+///   3. Axles of base and steered wheels that nearly coincide while all joints are at 0 coincide. They run
+///      through the base's origin if they nearly do.
 ///
 /// Solver, odometry, guard and plant read one model, so that all of them see the same exact wheels.
 #pragma once

@@ -7,7 +7,7 @@
 namespace zwang::lang {
 
 Feels parse_feels(const Node& node, Diagnostics& diagnostics);
-/// Against the drive of the same file, and the frames of the model. What it finds wrong is taken out.
+/// Checks `feels` against the drive of the same file and the frames of the model. Removes a wrong entry.
 void check_feels(const RobotFile& file, const solver::Model& model, Diagnostics& diagnostics);
 /// Chooses the virtual robot of a robot of `mass` [kg] that feels, for its drive. E631 where none will do,
 /// W632 where it is slow in contact.

@@ -1,4 +1,4 @@
-// What of a base a use case has to fit, from its robot file or from the draft of one.
+// The properties of a base that a use case has to fit, from its robot file or from the draft of one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +17,8 @@ namespace zwang::lang {
 
 namespace {
 
-/// The radius within which the shipped corridor leaves a base room to turn: the ward is 0.6 m off its middle,
-/// the wall 1.2 m, and the region keeps 0.1 m off the wall. [m]
+/// The radius [m] within which the shipped corridor leaves a base room to turn. The ward is 0.6 m off its
+/// middle, the wall 1.2 m, and the region keeps 0.1 m off the wall.
 constexpr double room_of_corridor = 1.2 - 0.1 - 0.6;
 
 constexpr std::size_t x_axis = 0, y_axis = 1, yaw_axis = 2;
@@ -173,7 +173,7 @@ BaseFit base_fit(const RobotDraft& draft) {
   fit.mass = draft.mass;
   if (draft.has_own_base) fit.base = draft.base;
   if (!draft.base_ahead.empty()) fit.base = draft.base_ahead;
-  // What the wheels hold is not known before their rollers are.
+  // The freedoms of a base are not known before the rollers of its wheels are.
   if (draft.assumed.size() == 1) fit.freedoms = freedoms_of(draft.assumed.front().robot);
   if (draft.assumed.empty()) return fit;
   const Robot& assumed = draft.assumed.front().robot;

@@ -1,11 +1,14 @@
-// The arms' points p_i (origins of links, corners of what collides) shall lie above the outline, and no motor
-// shall hold more than half of what it can. With the distance d_i of p_i beyond the outline, its depth h_i
-// below the lowest shoulder, and the torque t_j of gravity about joint j, the posture q makes
+// The arms' points p_i (origins of links, corners of what collides) shall lie above the outline. No motor
+// shall hold more than half of its limit. The posture q minimises, joint by joint over its travel,
 //
 //   sum d_i^2 + sum h_i^2 + w sum max(0, |t_j| / t_j,max - 1/2)^2 + e sum q_j^2
 //
-// small, joint by joint over its travel. The last term prefers the joints' zeros. Nothing is known of what
-// would touch inside of the robot, so the posture is a proposal.
+//   d_i   the distance of p_i beyond the outline
+//   h_i   the depth of p_i below the lowest shoulder
+//   t_j   the torque of gravity about joint j
+//
+// The last term prefers the joints' zeros. Collisions inside of the robot are not known, so the posture is a
+// proposal.
 #include "robot/folded_arm.hpp"
 
 #include <Eigen/Geometry>

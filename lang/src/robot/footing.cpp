@@ -92,8 +92,8 @@ double Footing::tipping_push(const Vector3& direction, double height_of_push) co
 }
 
 double Footing::most_carried(const std::vector<double>& shares) const {
-  // max sum s_i N_i under sum N_i = m g, sum N_i (x_i, y_i) = m g (x, y), N >= 0: a linear programme of three
-  // equalities has an optimum with three loads that are not 0.
+  // A linear programme: max sum s_i N_i under sum N_i = m g, sum N_i (x_i, y_i) = m g (x, y), N >= 0. It has
+  // three equalities, so it has an optimum with at most three loads that are not 0.
   const Eigen::Vector3d asked = weight * Eigen::Vector3d(1.0, centre.x(), centre.y());
   const auto column = [&](std::size_t i) { return Eigen::Vector3d(1.0, points[i].x(), points[i].y()); };
   double most = 0.0;

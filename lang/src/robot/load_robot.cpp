@@ -219,7 +219,7 @@ class RobotBuilder {
     return false;
   }
 
-  /// What the model builder says of the first thing that it names.
+  /// Adds the model builder's complaint at the first part that it names.
   void complain(const std::string& complaint) {
     const std::size_t open = complaint.find('`');
     const std::size_t close = complaint.find('`', open + 1);

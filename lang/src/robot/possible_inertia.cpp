@@ -4,8 +4,8 @@
 
 namespace zwang::lang {
 
-// With moments a <= b < c, a + b < c, the least change (da, db, dc) with a + da + b + db = c + dc is t (1, 1,
-// -1), t = (c - a - b) / 3.
+// The moments are a <= b < c, and a + b < c. The least change (da, db, dc) with a + da + b + db = c + dc is t
+// (1, 1, -1), t = (c - a - b) / 3.
 std::optional<CorrectedInertia> corrected(const solver::RigidInertia& inertia) {
   if (!(inertia.mass > 0.0)) return std::nullopt;
   const solver::Vector3 com = inertia.first_moment / inertia.mass;

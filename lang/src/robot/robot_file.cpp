@@ -69,7 +69,8 @@ WheelText parse_wheel(const Node& node, bool each_has_radius, Diagnostics& diagn
   return wheel;
 }
 
-/// What `left: 2 N m` may have been meant as; without a value the URDF says it.
+/// The mapping that the author of `left: 2 N m` may have meant. An entry without a value leaves the effort to
+/// the URDF.
 std::string actuator_example(const Node& node) {
   if (node.kind == NodeKind::null) return "{}";
   const std::string text = trimmed(node.text);
@@ -242,8 +243,9 @@ std::optional<double> parse_control_period(const Node& node, Diagnostics& diagno
   return std::nullopt;
 }
 
-/// A wheel that a wall holds turns by less than a coarser step while the base slides along it, and looks
-/// like one whose encoder is dead: docs/limits.md has the share of false stops. [rad]
+/// The largest step [rad] of an encoder without a warning. While the base slides along a wall, a wheel that
+/// the wall holds turns by less than a coarser step. Such a wheel looks like one whose encoder is dead.
+/// docs/limits.md has the share of false stops.
 constexpr double coarse_encoder_step = 2e-4;
 
 /// Behind the wheels, whose radii say how far a step is.
@@ -289,7 +291,7 @@ void parse_wheels(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
   if (wheels == nullptr || !require_sequence(*wheels, "`wheels`", diagnostics)) return;
   for (const Node& item : wheels->items) {
     file.wheels.push_back(parse_wheel(item, file.each_wheel.gives_radius, diagnostics));
-    // Who writes one by its name writes all so.
+    // An author who writes one wheel as a bare name writes all so. One diagnostic is enough.
     if (item.is_scalar()) break;
   }
   if (wheels->items.empty()) diagnostics.add(wording::no_wheels(wheels->span));
@@ -308,7 +310,7 @@ void parse_actuated(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
   }
 }
 
-/// What joints and links have beside wheels and motors.
+/// The entries of joints and links besides wheels and motors.
 void parse_joints_and_links(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
   for_each_entry(map, "axes", diagnostics, [&](const Entry& e) {
     if (auto axis = parse_axis_of_joint(e, diagnostics)) file.axes.push_back(std::move(*axis));

@@ -74,7 +74,7 @@ struct FrictionText {
   double compensate = 0.0;
 };
 
-/// What becomes of a <mimic> of the URDF.
+/// The treatment of a <mimic> of the URDF.
 struct MimicText {
   Word joint;  ///< that follows
   /// By a belt or a chain, which the floor keeps in step; else it moves by itself.

@@ -44,8 +44,8 @@ bool points_up(const UrdfJoint& joint, const PlacedUrdf& placed) {
   return std::abs((placed.pose_of(joint.child).rotation * joint.drawn_axis).z()) > PlacedUrdf::upright;
 }
 
-/// It is fixed, and carries this wheel alone: an axis of the URDF points up, or there is none and it is
-/// called a caster or steering.
+/// Whether the joint is fixed, carries this wheel alone, and is a swivel. Its axis in the URDF points up, or
+/// it has none and is called a caster or steering.
 bool is_held_swivel(const UrdfJoint& joint, const PlacedUrdf& placed, int wheels_on_it) {
   if (joint.joint.type != solver::JointType::fixed || wheels_on_it != 1) return false;
   if (joint.has_axis && !joint.drawn_axis.isZero(0.0)) return points_up(joint, placed);

@@ -70,7 +70,7 @@ struct Read {
   }
 };
 
-/// What an entry of a section is known by, and how it is written.
+/// The name of a section's entry, and its text.
 struct Item {
   std::string name, text;
 };
@@ -181,7 +181,7 @@ class Update {
     }
   }
 
-  /// What the draft knows where the file is open.
+  /// Fills the open places of the file with values that the draft knows.
   void fill(const Node& open, const Node& known) {
     for (const Entry& entry : open.entries) {
       const Entry* other = known.find(entry.key.text);

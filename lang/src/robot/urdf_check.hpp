@@ -1,4 +1,5 @@
-/// What is checked on a URDF's own words before and beside its library, which accepts nearly everything.
+/// Checks on the text of a URDF, before its library reads it and beside it: the library accepts nearly
+/// everything.
 #pragma once
 
 #include <optional>

@@ -192,8 +192,8 @@ class CandidateSearch {
     }
   }
 
-  /// Nothing is called a wheel, and nothing is round: all that is level with the lowest pair, where no other
-  /// link that moves reaches as low.
+  /// For a URDF in which no link is called a wheel and none is round. Adds all links that are level with the
+  /// lowest pair, if no other moving link reaches as low.
   void add_lowest(Joints& wheels) const {
     const UrdfJoint* lowest = nullptr;
     for (const UrdfJoint* joint : plain_) {

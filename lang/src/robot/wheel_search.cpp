@@ -176,8 +176,8 @@ class WheelSearch {
     return (placed_.pose_of(link).position - foot).head<2>().norm();
   }
 
-  /// A caster may be drawn of several links of its name. A link without a round shape is no support where a
-  /// round one, or a wheel of a caster, stands nearer than the link is high: the link holds it.
+  /// A caster may be drawn of several links of its name. A link without a round shape is no support if it
+  /// holds a round link, or a wheel of a caster. It holds one that stands nearer than the link is high.
   void leave_brackets_out() {
     const std::optional<double> ground = this->ground();
     std::vector<solver::Vector3> feet;

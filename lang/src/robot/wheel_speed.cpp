@@ -1,8 +1,12 @@
-// W611. With V = v + w x p the velocity over the ground of the point where a wheel of radius R stands, a its
-// axis, u what it holds (its roller's axis; of a plain wheel its rolling direction e = a x z):
+// W611. The rate qd of a wheel of radius R. V = v + w x p is the velocity over the ground of the point where
+// the wheel stands:
 //
 //   fixed wheel           qd = u'V / (R u'e)        and a'V = 0 where it holds sideways
 //   wheel on a swivel     qd = |V| / R              once it points along the motion
+//
+//   a   the wheel's axis
+//   e   its rolling direction, a x z
+//   u   the direction that it holds: its roller's axis; of a plain wheel e
 #include "robot/wheel_speed.hpp"
 
 #include <cmath>

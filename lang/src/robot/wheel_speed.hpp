@@ -5,7 +5,7 @@
 
 namespace zwang::lang {
 
-/// What bounds a motion of the base.
+/// The wheels' bound on a motion of the base.
 struct WheelSpeed {
   double most = solver::infinity;  ///< [m/s] or [rad/s] of the base; infinite where nobody says
   int joint = -1;                  ///< of the wheel that is at its limit first

@@ -34,8 +34,8 @@ struct XmlElement {
   }
 };
 
-/// Every element in the order of the text; the first is the root. nullopt when the text is no XML that zwang
-/// reads: size, depth, attributes, UTF-8, DOCTYPE, tags that do not match.
+/// Every element in the order of the text; the first is the root. nullopt: zwang does not read this XML.
+/// Reasons are its size, depth, attributes, UTF-8, DOCTYPE, or tags that do not match.
 std::optional<std::vector<XmlElement>> scan_xml(int source, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -1,4 +1,4 @@
-// What can be said of a scenario's cells without running them.
+// Checks of a scenario's cells without running them.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The parameters that the task file declares, read from its text among the sources; nullopt where they
-/// cannot be told. What is wrong with that file is not the scenario's matter.
+/// The parameters that the task file declares, read from its text among the sources. nullopt: the text could
+/// not be read whole. The errors of the task file are not reported here.
 std::optional<Symbols> parameters_of(const fs::path& task, const Diagnostics& diagnostics) {
   Diagnostics of_task = diagnostics;
   int source = -1;
@@ -67,8 +67,8 @@ void check_named_parameters(const ScenarioFile& file, const fs::path& task, Diag
   }
 }
 
-/// What the task is loaded with: all that cells differ in before they run, but for where the robot starts. Of
-/// that nothing else is asked than E913.
+/// The inputs with which the task is loaded: robot, scene and parameters. Cells with the same inputs share
+/// the loaded task. The robot's start is not among them: it is checked for E913 only.
 using World = std::tuple<std::string, std::string, std::map<std::string, std::string>>;
 
 World world_of(const ScenarioCell& cell) {
@@ -155,7 +155,7 @@ class CellChecker {
     refusals_.push_back({&cell, *d, place + ":" + std::to_string(d->span.begin.line)});
   }
 
-  /// What is wrong in any case is the task file's own matter.
+  /// Whether the task file is refused without any cell. Then its errors are no matter of the scenario.
   bool is_refused_alone() {
     Diagnostics of_task;
     return !load_within(budget_, scenario_.task, {}, {}, of_task);
@@ -176,7 +176,8 @@ class CellChecker {
     }
   }
 
-  /// What tells the cell from one whose task is accepted; else its robot, its scene, the task.
+  /// The key in which the cell differs from one whose task is accepted. Without such a key: its robot, its
+  /// scene, the task.
   Span guilty(const ScenarioCell& cell) const {
     for (const auto& [key, span] : cell.spans) {
       for (const ScenarioCell* other : accepted_) {

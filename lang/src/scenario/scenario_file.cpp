@@ -197,7 +197,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study
     expected.confidence = parse_certainty(*sure, "`confidence`", diagnostics);
   const Node* that = always != nullptr ? always : nullptr;
   if (always != nullptr) expected.kind = ExpectationKind::always;
-  // Of two claims in one nobody knows which one needs it.
+  // An entry with two claims does not show which claim needs `that`, so `that` is not required.
   if (at != nullptr || within != nullptr) that = is_good ? map.required("that") : map.optional("that");
   if (that != nullptr) expected.that = parse_condition(*that, diagnostics);
   map.report_split_condition();

@@ -82,7 +82,7 @@ std::optional<Scenario> scenario_of(const ScenarioFile& file, const std::filesys
 std::optional<Scenario> scenario_with_parameters(const ScenarioFile& file, const std::filesystem::path& path,
                                                  Diagnostics& diagnostics);
 
-/// What a cell's task is loaded with.
+/// The options with which a cell's task is loaded.
 LoadOptions options_of(const ScenarioCell& cell);
 Start start_of(const ScenarioCell& cell);
 

@@ -1,4 +1,4 @@
-/// What scenes and scenarios name of a robot that they do not choose themselves.
+/// Checks of names in scenes and scenarios that belong to a robot which another file chooses.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,8 @@ namespace zwang::lang {
 void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics);
 /// The joints of the first robot's faults.
 void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics);
-/// The same of the scene's other robots, which are loaded; and whether they are in the scene.
+/// The joints of the faults of the scene's other robots, which are loaded. Each named robot has to be in the
+/// scene.
 void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& scene, Diagnostics& diagnostics);
 /// The frames of the other robots that sensors and hands name: E301.
 void check_partners(const Scene& scene, Diagnostics& diagnostics);

@@ -62,8 +62,8 @@ double depth(const Outline& robot, const SceneObject& object, double height) {
   return depth(robot, placed(outline_of(object, height), pose));
 }
 
-/// [m] How high a bumper may be that the robot file says nothing of: an even body is twice as high as its
-/// centre of mass. 0 where its height is known, or no matter.
+/// The largest height [m] of a bumper whose height the robot file does not give. An even body is twice as
+/// high as its centre of mass. 0: the height is given, or the robot has no footing.
 double highest_bumper(const Robot& robot) {
   if (robot.bumper_height_said) return 0.0;
   const std::optional<Footing> footing = footing_of(robot);

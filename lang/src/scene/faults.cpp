@@ -8,7 +8,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What `key` says, one of its words.
+/// Reads the value of `key`, which has to be one of the key's words.
 void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, Diagnostics& diagnostics) {
   ++found;
   std::vector<std::string> known;

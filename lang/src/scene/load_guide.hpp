@@ -1,4 +1,4 @@
-/// What lets an object of a scene move besides a push: hinges, slides, and how it stands on the floor.
+/// The guides of an object in a scene: hinges, slides, and its contact with the floor.
 #pragma once
 
 #include <string>

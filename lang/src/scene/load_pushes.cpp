@@ -10,7 +10,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// Of two components the third one is 0.
+/// Three components of a force or a torque. If the list has two, the third one is 0.
 std::array<double, 3> parse_three(const Node& node, const Dimension& expected, std::size_t fewest,
                                   const std::string& what, Diagnostics& diagnostics) {
   const auto parts = parse_vector(node, expected, fewest, 3, what, diagnostics);
@@ -55,7 +55,7 @@ void check_pushed(const ScenePush& push, const Scene& scene, Diagnostics& diagno
   }
 }
 
-/// Who is pressed on, and where.
+/// The robot or object that is pressed, and the place of the push.
 void parse_place_of_push(MapReader& map, ScenePush& push, Diagnostics& diagnostics) {
   const Node* robot = map.optional("robot");
   const Node* object = map.optional("object");

@@ -7,8 +7,8 @@
 
 namespace zwang::lang {
 
-/// Loads the task file of each robot of `scene`, which was read from `path`, from below `root` and without
-/// the scene that it may name itself. `budget` is that of `check`. False on an error.
+/// Loads the task file of each robot of `scene`, which was read from `path`. The task files lie below `root`.
+/// A scene that a task file names is not loaded. `budget` is that of `check`. False on an error.
 bool load_robots_of(Scene& scene, const std::filesystem::path& path, const std::filesystem::path& root,
                     double& budget, Diagnostics& diagnostics);
 

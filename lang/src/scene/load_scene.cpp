@@ -52,7 +52,7 @@ void parse_floor(const Node& node, Scene& scene, Diagnostics& diagnostics) {
   floor.finish();
 }
 
-/// What `wall: 3` or `cylinder: [0.3, 1.7]` may have been meant as.
+/// The mapping that the author of `wall: 3` or `cylinder: [0.3, 1.7]` may have meant.
 std::string sizes_example(const Node& node, bool is_wall) {
   const auto size = [&](std::size_t i, const char* usual) {
     if (node.is_scalar() && i == 0) return wording::with_unit(node.text, dimension::length);

@@ -9,7 +9,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What one step of a script says.
+/// One step of a script.
 struct StepValue {
   ScriptStep step;
   std::optional<Dimension> dimension;  ///< of a number; none: true or false
@@ -27,7 +27,7 @@ std::optional<StepValue> parse_step_value(const Node& node, const Node& step, do
   return std::nullopt;
 }
 
-/// What the first value says of all.
+/// The first value of a script gives the type and the dimension of all its values.
 void describe_script(const StepValue& first, const Span& span, SceneSignal& signal) {
   signal.source_span = span;
   signal.script_kind = first.dimension ? ScriptKind::number : ScriptKind::truth;
@@ -218,7 +218,7 @@ std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Di
   double last = -1.0;
   for (const Node& item : node.items) {
     MapReader map(item, what, diagnostics, "{time: 1 s, at: [0 m, 0 m]}");
-    // Who writes one point as a list writes all so.
+    // An author who writes one point as a list writes all so. One diagnostic is enough.
     if (!map.is_mapping()) return points;
     Waypoint point;
     if (const Node* when = map.required("time")) {

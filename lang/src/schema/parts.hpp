@@ -1,4 +1,4 @@
-/// What the schemas of all files are put together from.
+/// The parts from which the schemas of all files are built.
 #pragma once
 
 #include <initializer_list>

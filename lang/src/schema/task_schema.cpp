@@ -5,7 +5,7 @@ namespace zwang::lang::schema {
 
 namespace {
 
-/// What one of the four quantities of an axis may say.
+/// The schema of a statement about one of an axis's four quantities.
 Json statement(const char* description, std::vector<Json> more = {}) {
   std::vector<Json> choices = {reference("value"), reference("range"),
                                word("the name of a signal of the type number")};

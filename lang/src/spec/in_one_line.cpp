@@ -14,7 +14,8 @@ bool is_bare(const Node& node) {
   return result.error == QuantityError::none && !result.quantity.has_unit;
 }
 
-/// Who writes one angle in degrees writes all so.
+/// Whether one of the bare numbers would be in degrees. An author who writes one angle in degrees writes all
+/// so.
 bool has_degrees(const Node& node, const Dimension& expected) {
   if (node.is_scalar()) return is_bare(node) && wording::with_unit(node.text, expected).ends_with("deg");
   for (const Node& item : node.items) {

@@ -30,7 +30,7 @@ void parse_return(MapReader& map, const std::string& path, std::optional<ValueTe
     return_speed = parse_value(*node, path + ".return", diagnostics);
 }
 
-/// What a group or an axis may say besides its statements.
+/// The keys of a group or an axis besides its statements.
 void parse_manner(MapReader& map, const std::string& path, std::optional<ValueText>& time_constant,
                   std::optional<ValueText>& weight, std::optional<int>& level, int lowest_level,
                   Diagnostics& diagnostics) {
@@ -86,7 +86,7 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
   parse_return(map, path, axis.return_speed, diagnostics);
 }
 
-/// What `0 deg` alone may have been meant as.
+/// The statement that the author of `0 deg` alone may have meant.
 std::string statement_of(const std::string& text, const std::string& axis) {
   const QuantityResult result = parse_quantity(text);
   const Dimension& d = result.quantity.dimension;

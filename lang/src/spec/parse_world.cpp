@@ -15,7 +15,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What `door: bool` may have been meant as.
+/// The mapping that the author of `door: bool` may have meant.
 std::string signal_example(const std::string& type) {
   const std::string age = ", stale_after: 500 ms}";
   if (type == "number") return "{type: number, unit: m" + age;

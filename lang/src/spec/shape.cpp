@@ -66,7 +66,7 @@ std::optional<bool> parse_boolean(const Node& node, const std::string& what, Dia
 
 namespace {
 
-/// What other programs call the name of a thing in a list of things.
+/// The keys that other programs use for an item's name in a list of items.
 bool is_name_key(std::string_view key) {
   return key == "name" || key == "id" || key == "joint";
 }
@@ -257,7 +257,7 @@ std::optional<std::vector<std::array<double, 2>>> parse_places(const Node& node,
   std::vector<std::array<double, 2>> places;
   for (const Node& place : node.items) {
     const auto at = parse_vector(place, dimension::length, 2, 2, part, diagnostics);
-    // Who writes one place in another shape writes all so.
+    // An author who writes one place in another shape writes all so. One diagnostic is enough.
     if (!at && !place.is_sequence()) return std::nullopt;
     if (at) places.push_back({(*at)[0], (*at)[1]});
   }

@@ -87,7 +87,8 @@ std::optional<std::array<double, 2>> parse_place(const Node& node, const std::st
 /// The corners of `what`, [m]; nullopt when one is bad.
 std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node, const std::string& what,
                                                                 Diagnostics& diagnostics);
-/// The same of a list of places under another key; `part` names one of them: "a corner of region `hall`".
+/// A list of places under any key, [m]; nullopt when one is bad. `part` names one of them: "a corner of
+/// region `hall`".
 std::optional<std::vector<std::array<double, 2>>> parse_places(const Node& node, const std::string& list,
                                                                const std::string& part,
                                                                Diagnostics& diagnostics);
@@ -98,10 +99,10 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
 /// One plain quantity of a dimension, SI.
 std::optional<double> parse_plain(const Node& node, const Dimension& expected, const std::string& what,
                                   Diagnostics& diagnostics);
-/// One that must be above zero (or at zero, where `zero_allowed`); E105 otherwise.
+/// One plain quantity above zero, or, with `zero_allowed`, not below zero. E105 otherwise.
 std::optional<double> parse_positive(const Node& node, const Dimension& expected, const std::string& what,
                                      bool zero_allowed, Diagnostics& diagnostics);
-/// The same of a value that was read before.
+/// E105 for a value that was read before and is not above zero (with `zero_allowed`: below zero).
 bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what,
                       bool zero_allowed, Diagnostics& diagnostics);
 /// Checks `zwang: 1` and its kin; false when the file is in a version that is not read here, 1 to `newest`.

@@ -73,7 +73,7 @@ struct FeatureText {
   bool is_bad = false;
 };
 
-/// What an axis may state, each once.
+/// The quantities that an axis may state, each once.
 inline constexpr std::array quantities_of_axis{solver::Quantity::position, solver::Quantity::velocity,
                                                solver::Quantity::acceleration, solver::Quantity::force};
 
@@ -185,10 +185,10 @@ struct TaskFile {
 const char* word_of(solver::Quantity quantity);
 std::optional<solver::Axis> axis_named(std::string_view name);
 bool is_rotation(solver::Axis axis);
-/// What a statement about `quantity` of the axis measures.
+/// The dimension of a statement about `quantity` of the axis.
 Dimension dimension_of(solver::Axis axis, solver::Quantity quantity);
 
-/// The shape of a task file: keys, kinds, quantities with units. nullopt when it is not one at all; parts
+/// The shape of a task file: keys, kinds, quantities with units. nullopt: it is no task file at all. Parts
 /// with errors are left out or marked bad.
 std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics);
 

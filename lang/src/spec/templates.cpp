@@ -101,7 +101,7 @@ class Substitution {
       if (value != nullptr) {
         result += trimmed(value->text);
         node.is_replaced = true;
-        // What is nothing but the argument was written at the call: what is wrong with it is told there.
+        // A text that consists of the argument alone was written at the call. Its errors are reported there.
         const bool is_whole = at == 0 && end == node.text.size();
         if (is_whole && !value->is_bad) node.span = value->span;
         node.is_bad = node.is_bad || value->is_bad;
@@ -355,7 +355,7 @@ void Templates::report_unused() const {
       diagnostics_.add(wording::unused(declared.span, "template", name));
       continue;
     }
-    // One that the body names differently is meant by that name.
+    // The body may name the argument by a misspelt name. Then the unknown name is the error.
     if (has_unknown_name(*declared.body, declared)) continue;
     for (const auto& [argument, span] : declared.unused)
       diagnostics_.add(wording::unused(span, "argument", argument));

@@ -25,10 +25,10 @@ class Templates {
   void forgive_unknown() { forgives_unknown_ = true; }
   /// Reads the `templates` mapping.
   void declare(const Node& node);
-  /// What the task `task` says: itself, or the body of the template that it uses, with its own keys in the
-  /// place of the body's. nullopt when it cannot be told, and was complained of.
+  /// The expanded `task`. If the task uses a template, it is the template's body, with the task's own keys in
+  /// the place of the body's. Otherwise it is the task itself. nullopt on an error.
   std::optional<Node> expand(const Node& task);
-  /// The same of the groups under the `constraints` of a task or of `always`: those that use a template.
+  /// Expands the groups under the `constraints` of a task or of `always` that use a template.
   void expand_groups(Node& owner);
   /// W302 for templates that no task uses, and for arguments that their body does not.
   void report_unused() const;

@@ -39,7 +39,7 @@ bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diag
   return true;
 }
 
-/// What `GROUP.AXIS.QUANTITY` is measured in; none for another place.
+/// The dimension of `GROUP.AXIS.QUANTITY`. nullopt: `what` is another place.
 std::optional<Dimension> dimension_of_place(const std::string& what) {
   struct Quantity {
     std::string_view name;

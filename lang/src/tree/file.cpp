@@ -92,7 +92,7 @@ std::optional<int> read_file(const std::filesystem::path& path, const SizeLimit&
   const bool is_too_large = text->size() > limit.bytes;
   if (is_too_large) text->clear();
   if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
-  // What two robots of a scene share is one source: what is wrong with it is said once.
+  // A file that two robots of a scene share is one source, so its errors are reported once.
   const std::vector<Source>& known = diagnostics.sources();
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i].path == path.string() && known[i].text == *text) return static_cast<int>(i);
@@ -110,7 +110,7 @@ std::optional<std::filesystem::path> resolve_path(const std::string& written,
                                                   const std::filesystem::path& base,
                                                   const std::filesystem::path& root, const Span& cause,
                                                   Diagnostics& diagnostics) {
-  // What is opened ends at a NUL, and other control bytes mislead whoever reads the message.
+  // The system ends a path at a NUL. Other control bytes mislead the reader of a message.
   const bool has_control =
       std::any_of(written.begin(), written.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (written.empty() || has_control || written.find("://") != std::string::npos) {

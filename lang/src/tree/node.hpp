@@ -1,4 +1,4 @@
-/// What a YAML file says, before anyone asks what it means: a tree of scalars, lists and maps with their
+/// The content of a YAML file before its meaning is checked: a tree of scalars, lists and maps with their
 /// places.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// What is checked on the raw text, before any library sees it.
+/// Checks on the raw text, before any library reads it.
 #pragma once
 
 #include <string>

@@ -22,8 +22,8 @@ struct Document {
   std::vector<Comment> comments;
 };
 
-/// The single document of a source. nullopt when there is no tree to go on with; a tree whose parts are
-/// marked bad where something was wrong with them alone (tags, doubled keys).
+/// The single document of a source. nullopt: there is no tree. An error that concerns one part alone (tags,
+/// doubled keys) marks that part as bad.
 std::optional<Document> read(int source, Diagnostics& diagnostics);
 
 /// The place of every byte of a scalar's value, and of its end, in the source's text.

@@ -7,7 +7,7 @@
 namespace zwang::lang {
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // What both begin or end with costs nothing.
+  // A common start and a common end cost nothing.
   const auto begin = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   a.remove_prefix(static_cast<std::size_t>(begin.first - a.begin()));
   b.remove_prefix(static_cast<std::size_t>(begin.second - b.begin()));
@@ -56,7 +56,7 @@ struct Synonym {
   std::string_view word, key;
 };
 
-/// What authors write who know other programs.
+/// Words that authors bring from other programs.
 constexpr Synonym synonyms[] = {
     {"frame", "move"},
     {"link", "move"},

@@ -45,8 +45,8 @@ std::string trimmed(std::string_view text);
 /// `a.b.c` as `a`, `b`, `c`.
 std::vector<std::string> split_at_dots(const std::string& path);
 std::string lower_case(std::string_view text);
-/// A decimal comma ends an item in brackets: `0,08 m/s` comes as `0` and `08 m/s`. What was meant, `0.08
-/// m/s`; empty where the two are something else.
+/// A decimal comma ends an item in brackets: `0,08 m/s` comes as `0` and `08 m/s`. Returns the quantity that
+/// the author meant, `0.08 m/s`. Empty: the two items are something else.
 std::string joined_at_decimal_comma(std::string_view before, std::string_view behind);
 /// As `printable`, on one line: a hostile file cannot write to the terminal.
 std::string escaped(std::string_view text);

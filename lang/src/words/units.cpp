@@ -73,7 +73,7 @@ constexpr std::array named_dimensions{
     NamedDimension{{2, 0, 0, 0}, "an area", "m^2"},
 };
 
-/// What people write for a unit that has another name here.
+/// Spellings of a unit that has another name here.
 struct OtherName {
   std::string_view written;
   std::string_view meant;

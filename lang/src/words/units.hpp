@@ -22,7 +22,7 @@ std::optional<Unit> parse_unit(std::string_view text, std::string& unknown);
 /// One unit's own name, as `kN`.
 bool is_unit_name(std::string_view name);
 std::vector<std::string> unit_names();
-/// What the author of an unknown unit meant, as `N m` for `Nm`; empty when nothing is near.
+/// The unit that the author of an unknown one meant, as `N m` for `Nm`. Empty: no unit is near.
 std::string nearest_unit(std::string_view unknown);
 
 struct Quantity {

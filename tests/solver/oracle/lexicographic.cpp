@@ -20,7 +20,8 @@ bool one_sided(RowKind kind) {
   return kind == RowKind::upper || kind == RowKind::lower;
 }
 
-/// What a level leaves behind for those below: y . c + R mu = e, or a bound on it (mu then of one sign).
+/// A constraint that a level imposes on the levels below: y . c + R mu = e, or a bound on it. Then mu has one
+/// sign.
 struct Held {
   RowKind kind;  ///< driver stands for an equality
   Vector y;

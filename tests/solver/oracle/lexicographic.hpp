@@ -1,7 +1,7 @@
 /// The bounded problem of the solver, level by level, on dense matrices in extended precision.
 ///
-/// With M the mass matrix, h the bias and Jp the ground, every motion that the ground allows is
-/// vdot = free + B c, B B' = Mc, and 1/2 c'c is Gauss's function. Rows are y_i = A_i B in these coordinates.
+/// M is the mass matrix, h the bias and Jp the ground. Every motion that the ground allows is vdot = free + B
+/// c, with B B' = Mc. Then 1/2 c'c is Gauss's function, and rows are y_i = A_i B in these coordinates.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
-/// A convex quadratic program solved in extended precision by an interior point, polished by an exact solve
-/// on the active set that the interior point points at, and checked against its optimality conditions.
+/// A convex quadratic program, solved in extended precision by an interior-point method. An exact solve on
+/// the active set of its result polishes the solution. The solution is checked against the optimality
+/// conditions.
 #pragma once
 
 #include <limits>
@@ -30,8 +31,8 @@ struct QuadraticProgram {
 
 struct QuadraticSolution {
   Vector x;
-  /// The gradient of the Lagrangian, in units that make every variable's own curvature or equation 1:
-  /// positive where a lower bound carries force, negative at an upper one, 0 between.
+  /// The gradient of the Lagrangian, in units that make every variable's own curvature or equation 1.
+  /// Positive: a lower bound carries force. Negative: an upper bound does. 0: between them.
   Vector bound_force;
   Real error = 0;  ///< largest violation of the optimality conditions, relative to the problem's size
   int iterations = 0;

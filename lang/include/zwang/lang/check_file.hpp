@@ -14,7 +14,7 @@
 
 namespace zwang::lang {
 
-/// What the file holds. std::monostate: it has errors, and the diagnostics say which.
+/// The content of a file. std::monostate: the file has errors, and the diagnostics name them.
 using FileContent = std::variant<std::monostate, Program, Robot, Scene, Scenario, Connection, Study>;
 
 struct CheckOptions {

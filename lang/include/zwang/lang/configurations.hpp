@@ -18,13 +18,13 @@ namespace zwang::lang {
 /// The mass of casters and swivels has its extremes at those angles.
 ZWANG_EXPORT std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene);
 
-/// What `configurations` looks at, in words: for reports that give figures over them.
+/// The configurations that `configurations` returns, in words, for reports that give figures over them.
 ZWANG_EXPORT std::string describe_configurations(const Robot& robot);
 
 /// The solver's figures of an axis as a task can use them. Where the ground leaves less than a thousandth of
-/// the axis, the axis is held. An example is a base whose wheels stand a millimetre behind the origin: the
-/// origin goes sideways when the base spins, with tons of effective mass. An axis that only moves along with
-/// a turn, and cannot be pushed alone, is not reachable.
+/// the axis, the axis is held. An example is a base whose wheels stand a millimetre behind the origin. When
+/// the base spins, the origin goes sideways with tons of effective mass. An axis that only moves along with a
+/// turn, and cannot be pushed alone, is not reachable.
 ZWANG_EXPORT solver::AxisAnalysis usable(solver::AxisAnalysis axis);
 
 /// Four states in general position: joints anywhere within their limits, the base anywhere within 3 m of the

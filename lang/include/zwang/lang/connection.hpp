@@ -57,7 +57,7 @@ struct JointsSource {
   std::map<std::string, std::string> names;  ///< the URDF's joint -> its name in the messages
   std::map<std::string, Span> name_spans;    ///< by the URDF's joint
 
-  /// What the messages call the URDF's joint.
+  /// The name that the messages have for the URDF's joint.
   const std::string& name_of(const std::string& joint) const {
     const auto renamed = names.find(joint);
     return renamed == names.end() ? joint : renamed->second;
@@ -87,7 +87,7 @@ struct OutputSink {
   Span span;
 };
 
-/// What others are told of the base.
+/// The topics on which other programs read the base's motion.
 struct BasePublication {
   std::optional<Topic> odometry;    ///< nav_msgs/Odometry
   std::optional<FramePair> frames;  ///< of a transform on /tf
@@ -109,7 +109,7 @@ struct CommandSink {
   Span span;
 };
 
-/// What a goal of the action `run` can name.
+/// A task that a goal of the action `run` can name.
 struct NamedTask {
   std::string name;
   std::filesystem::path file;  ///< from the folder of the connection file, where it is not absolute

@@ -1,5 +1,4 @@
-/// What the front end has to say to an author: one list that every phase writes into, rendered in several
-/// forms.
+/// Diagnostics of the front end. Every phase adds to one list, which is rendered in several forms.
 #pragma once
 
 #include <iosfwd>
@@ -64,8 +63,9 @@ class ZWANG_EXPORT Diagnostics {
   int count(Severity severity) const;
 
   void allow(Allowance allowance) { allowances_.push_back(std::move(allowance)); }
-  /// For when all has been said: tells the missing units of one list or mapping together, takes out what
-  /// allowances silence, and tells of those that silence nothing. The load functions end with it.
+  /// Called after all checks: the load functions end with it. Tells the missing units of one list or mapping
+  /// together. Takes out diagnostics that an allowance silences, and tells of allowances that silence
+  /// nothing.
   void settle();
   const std::vector<Silenced>& silenced() const { return silenced_; }
 

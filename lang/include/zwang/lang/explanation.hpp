@@ -9,7 +9,7 @@
 
 namespace zwang::lang {
 
-/// What an example is cut from; what it leaves out is then the smallest thing that works.
+/// The part of a file that an example shows. The rest of the file is then the smallest one that works.
 enum class ExcerptOf {
   nothing,    ///< no example can be shown in a few lines
   whole,      ///< a whole task file

@@ -28,7 +28,7 @@ inline constexpr std::array fault_words{
     FaultWord{"plant", "diverges", FaultKind::plant_diverges},
 };
 
-/// What a fault may take at most: of the mass of the base link, and of its inertia.
+/// The largest shares of the base link's mass and of its inertia that a fault may take away.
 inline constexpr double most_payload_less = 0.75, most_inertia_less = 0.75;
 
 }  // namespace zwang::lang

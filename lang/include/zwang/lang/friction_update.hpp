@@ -17,8 +17,8 @@ struct MeasuredFriction {
   double viscous = 0.0;  ///< [N m s/rad]
 };
 
-/// The text of `robot_file` with these values under `friction`; what else stands there, `presliding` and
-/// `compensate` too, stays. nullopt where the file is no YAML map.
+/// The text of `robot_file` with these values under `friction`. All other text stays, `presliding` and
+/// `compensate` too. nullopt where the file is no YAML map.
 ZWANG_EXPORT std::optional<std::string> with_friction(const std::filesystem::path& robot_file,
                                                       const std::vector<MeasuredFriction>& frictions,
                                                       Diagnostics& diagnostics);

@@ -5,8 +5,11 @@
 
 namespace zwang::lang {
 
-/// A mass m that arrives at v where a spring K and a damper c stop it, while F pushes on:
-///     m x'' + c x' + K x = F,   x(0) = 0, x'(0) = v;   the contact presses with C = c x' + K x.
+/// A mass m arrives with the velocity v at a spring K and a damper c, while a force F pushes on.
+/// Equation of motion:
+///     m x'' + c x' + K x = F,   x(0) = 0, x'(0) = v
+/// Contact force:
+///     C = c x' + K x
 struct ZWANG_EXPORT Hit {
   double mass = 0.0;       ///< m [kg]
   double speed = 0.0;      ///< v [m/s]
@@ -14,9 +17,10 @@ struct ZWANG_EXPORT Hit {
   double damping = 0.0;    ///< c [N s/m] of all of them
   double push = 0.0;       ///< F [N]
 
-  /// The largest C [N]. Without F, as a share of v sqrt(K m) at the damping ratio z = c / (2 sqrt(K m)):
-  ///     exp(-z/s atan2(s (1 - 4 z^2), z (3 - 4 z^2))),  s = sqrt(1 - z^2),   for z < 1/2,
-  /// 0.81 at 0.27 and 1 at 1/2; from there on 2 z, the damper's C(0) = c v.
+  /// The largest C [N]. Let z = c / (2 sqrt(K m)) be the damping ratio and s = sqrt(1 - z^2).
+  /// Without F, C / (v sqrt(K m)) is
+  ///     exp(-z/s atan2(s (1 - 4 z^2), z (3 - 4 z^2)))   for z < 1/2: 0.81 at z = 0.27, 1 at z = 1/2
+  ///     2 z                                             for z >= 1/2, at t = 0: C(0) = c v
   double peak_force() const;
 };
 

@@ -9,9 +9,10 @@
 
 namespace zwang::lang {
 
-/// Of a box or a wall, in its own axes without roll and pitch, from its `at`: convex, counter-clockwise, [m]
-/// with z = 0. One that leans is cut at `height` [m] above the floor; empty where it does not reach there.
-/// One that is upright has the same outline at any height.
+/// The outline of a box or a wall from its `at`, in its own axes without roll and pitch. The corners [m] are
+/// convex, counter-clockwise, and have z = 0. A leaning object is cut at `height` [m] above the floor. The
+/// outline is empty if the object does not reach that height. An upright object has the same outline at any
+/// height.
 ZWANG_EXPORT std::vector<solver::Vector3> outline_of(const SceneObject& object, double height);
 /// Whether it is there at `height` [m] above the floor, whatever its shape.
 ZWANG_EXPORT bool reaches(const SceneObject& object, double height);

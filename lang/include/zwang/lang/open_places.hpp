@@ -1,4 +1,4 @@
-/// What a drafted robot file leaves to its owner.
+/// The places of a drafted robot file that its owner has to fill in.
 #pragma once
 
 #include <string>

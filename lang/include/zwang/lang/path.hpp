@@ -1,5 +1,5 @@
-/// Paths of lines and fillets, in the x-y plane of a frame of their own: the one at their first point, with x
-/// along the first line.
+/// Paths of lines and fillets, in the x-y plane of a frame of their own. The frame is at the first point,
+/// with x along the first line.
 #pragma once
 
 #include <array>

@@ -10,8 +10,8 @@
 
 namespace zwang::lang {
 
-/// E915, at the object, robot or joint of the scene and the robot that `reason` names in back ticks, else
-/// where the robot file begins to name joints. `scene` may be nullptr.
+/// E915, at the object, robot or joint that `reason` names in back ticks. Without a name: where the robot
+/// file begins to name joints. `scene` may be nullptr.
 ZWANG_EXPORT void tell_plant_refusal(const std::string& reason, const Robot& robot, const Scene* scene,
                                      Diagnostics& diagnostics);
 

@@ -8,8 +8,9 @@
 
 namespace zwang::lang {
 
-/// The text with `\xNN` for each byte that is not UTF-8, of a control character (C0, DEL, C1), or of a
-/// character that makes a text look other than it is. `kept` are control characters that stay.
+/// The text with `\xNN` in the place of bytes that must not reach a terminal. These are bytes that are not
+/// UTF-8, control characters (C0, DEL, C1), and characters that make a text look other than it is. The
+/// control characters in `kept` stay.
 ZWANG_EXPORT std::string printable(std::string_view text, std::string_view kept = "\n\t");
 
 /// The same as text or an attribute of XML: in one line, its four marks as entities.

@@ -84,7 +84,7 @@ struct Signal {
   Span span;
 };
 
-/// What the robot does beside its motion: a gripper, a lamp. Tasks set it, and the host carries it out.
+/// An output of the robot besides its motion: a gripper, a lamp. Tasks set it, and the host carries it out.
 struct Output {
   std::string name;
   bool is_number = false;      ///< else true or false: 1 or 0
@@ -162,7 +162,7 @@ struct ExpressionNode {
   int right = -1;
 };
 
-/// What `and`, `or` and `not` join: a comparison, or a name that is true or false.
+/// An operand of `and`, `or` and `not`: a comparison, or a name that is true or false.
 struct ConditionTerm {
   int node = -1;     ///< index into Condition::nodes
   std::string text;  ///< as written, in one line
@@ -278,7 +278,7 @@ struct Attempts {
   Span span;
 };
 
-/// What holds in every task: groups at level 0 and exits that interrupt.
+/// The section that holds in every task: groups at level 0 and exits that interrupt.
 struct Always {
   std::vector<Group> groups;
   std::vector<Exit> exits;
@@ -323,7 +323,7 @@ struct Program {
 /// How the robot stands before anything moves: its joints in their posture, the base where the scene has it.
 ZWANG_EXPORT solver::State start_state(const Robot& robot, const std::optional<Scene>& scene);
 
-/// What the command line may put in the place of the file's own words.
+/// Options of the command line that replace words of the file.
 struct LoadOptions {
   std::optional<std::filesystem::path> robot;
   std::optional<std::filesystem::path> scene;

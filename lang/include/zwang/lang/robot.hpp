@@ -38,13 +38,13 @@ struct JointFriction {
 
 /// Where a robot file gives no `control_period`. [s]
 inline constexpr double default_control_period = 1e-3;
-/// The longest: limits brake within a horizon of as much, and what brakes to them within h loses dt / h of
-/// its excess from tick to tick. [s]
+/// The longest control period [s]. Limits brake within a horizon h of the same length. An axis that brakes to
+/// a limit within h loses dt / h of its excess from tick to tick.
 inline constexpr double longest_control_period = 10e-3;
 inline constexpr double shortest_control_period = 0.1e-3;
 
-/// How far the guard lets motors move a wheel's rim without an encoder that confirms it: so far [m], or so
-/// many steps of the encoder if that is more.
+/// The way that the guard lets motors move a wheel's rim before an encoder confirms it. It is the larger of
+/// `least_blind_way` [m] and `blind_steps` steps of the encoder.
 inline constexpr double least_blind_way = 0.5e-3;
 inline constexpr double blind_steps = 4.0;
 /// Of an encoder: 63 steps a turn. [rad]
@@ -59,7 +59,7 @@ struct Pad {
   double width = 0.0, height = 0.0;  ///< [m] along the frame's y and z
 };
 
-/// What tells a robot of the contacts that press on it. The sensor's low pass is of first order.
+/// The source by which a robot feels contact forces. The sensor's low pass is of first order.
 struct Feels {
   enum class By {
     nothing,
@@ -76,8 +76,8 @@ struct Feels {
   static constexpr double moment_arm = 0.1;
 };
 
-/// What the motors' drive takes, and how late. The delay is the way of an encoder's value to the runtime and
-/// of the command back to the wheel, half of it each.
+/// The commands that the motors' drive takes, and its delay. Half of the delay is an encoder's value on its
+/// way to the runtime. The other half is the command on its way to the wheel.
 struct Drive {
   bool takes_velocity = false;  ///< false: torques
   bool takes_twist = false;     ///< of the base; false: velocities of the wheels

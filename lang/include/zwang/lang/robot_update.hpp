@@ -24,7 +24,7 @@ struct RobotUpdate {
   std::vector<UpdateNote> differ;    ///< values that were kept though the URDF says another
 };
 
-/// What an existing robot file says about its draft. nullopt where the file is no YAML.
+/// The options of the draft from which an existing robot file was made. nullopt where the file is no YAML.
 ZWANG_EXPORT std::optional<DraftOptions> options_of(const std::filesystem::path& robot_file,
                                                     Diagnostics& diagnostics);
 

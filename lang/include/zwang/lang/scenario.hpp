@@ -66,10 +66,10 @@ struct Expectation {
   Span span;
 };
 
-/// The values of expectations: what the plant measures, and when the run told what. They come in this order:
-/// - `truth_base_count` of the base, `truth_object_count` of each object, `truth_robot_count` of each robot
-/// of
-///   the scene, each in the order of its enumeration
+/// The values of expectations: the plant's measurements, and the times of the run's reports. Their order:
+/// - `truth_base_count` values of the base, in the order of its enumeration
+/// - `truth_object_count` values of each object, likewise
+/// - `truth_robot_count` values of each robot of the scene, likewise
 /// - the travel of each object with a guide: an angle, or a length
 /// - the six true parts of each wrench that the scene measures on the first robot
 /// - each output of the task file
@@ -124,8 +124,8 @@ ZWANG_EXPORT std::optional<Scenario> load_scenario(const std::filesystem::path& 
                                                    Diagnostics& diagnostics);
 
 /// As `load_scenario`, and asks of every cell what `load_run` would, without running it. Is the task refused
-/// on this robot and in this scene, where the scenario does not expect it? What do the expectations mean
-/// there? Do the faults have something that can fail? The task file alone is not judged.
+/// on this robot and in this scene, where the scenario does not expect it? Which quantities do the
+/// expectations name there? Do the faults have something that can fail? The task file alone is not judged.
 ZWANG_EXPORT std::optional<Scenario> check_scenario(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics);
 

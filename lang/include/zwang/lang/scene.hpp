@@ -94,7 +94,7 @@ struct ScriptStep {
   bool valid = true;   ///< false: nothing is measured
 };
 
-/// What the steps of a script are.
+/// The type of a script's steps.
 enum class ScriptKind {
   lost,   ///< nothing else
   truth,  ///< true and false

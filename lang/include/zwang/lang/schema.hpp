@@ -9,8 +9,8 @@
 
 namespace zwang::lang {
 
-/// What a schema can say of a file: keys, shapes, and whether a text looks like a quantity. Names, dimensions
-/// and everything else is for `load` to judge.
+/// The schema of a file: keys, shapes, and whether a text looks like a quantity. `load` judges names,
+/// dimensions and everything else.
 ZWANG_EXPORT std::string json_schema(FileKind kind);
 
 }  // namespace zwang::lang

@@ -23,7 +23,7 @@ enum class Freedoms {
   steered,  ///< wheels that motors steer
 };
 
-/// What a use case has to fit.
+/// The properties of a base that a use case has to fit.
 struct BaseFit {
   std::string robot;  ///< its name, for comments
   std::vector<Eigen::Vector2d>
@@ -45,8 +45,9 @@ struct BaseFit {
 ZWANG_EXPORT BaseFit base_fit(const RobotDraft& draft);
 ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
-/// The yaw [rad] at which the outline rests against a wall across x that it is pushed to from `yaw`, without
-/// friction; no value where it turns by more than 90 deg first. The base turns about the outline's origin.
+/// The yaw [rad] at which the outline comes to rest against a wall across x. The base is pushed to the wall
+/// from `yaw`, without friction, and turns about the outline's origin. No value: the base turns by more than
+/// 90 deg first.
 ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]

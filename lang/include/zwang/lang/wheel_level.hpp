@@ -29,8 +29,9 @@ struct WheelLevel {
   double spread() const { return ends[highest] - ends[lowest]; }
   bool is_level() const { return mean - ends[lowest] <= most_lift && ends[highest] - mean <= most_lift; }
 };
-/// [m] How far along `heading` [rad] from the base's origin the axle of plain wheels stands that do not
-/// steer: there a wall's side force is held, and about it a base turns. 0: no wheel holds the base sideways.
+/// The distance [m] along `heading` [rad] from the base's origin to the axle of plain wheels that do not
+/// steer. The axle holds a wall's side force, and the base turns about it. 0: no wheel holds the base
+/// sideways.
 ZWANG_EXPORT double axle_ahead(const solver::Model& model, double heading);
 
 /// Of a model that has wheels.
