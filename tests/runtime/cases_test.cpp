@@ -14,91 +14,13 @@
 #include "../solver/malloc_counter.hpp"
 #include "../temporary_folder.hpp"
 #include "robots.hpp"
+#include "shipped_case.hpp"
 #include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 namespace {
 
 using namespace test;
-
-lang::Program load(const std::string& name, const std::map<std::string, std::string>& parameters = {}) {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.parameters = parameters;
-  const auto program = lang::load(ZWANG_SOURCE_DIR "/specs/" + name, options, diagnostics);
-  for (const lang::Diagnostic& d : diagnostics.all())
-    EXPECT_NE(d.severity, lang::Severity::error) << d.message;
-  if (!program) throw std::runtime_error(name);
-  return *program;
-}
-
-/// One run of a task file, with signals and contacts from a script.
-struct Case {
-  explicit Case(lang::Program p)
-      : program(std::move(p)),
-        runner(program),
-        sensed(program.robot.model, program.signals.size()),
-        base(program.robot) {
-    if (program.scene) {
-      base.pose = {program.scene->start_at[0], program.scene->start_at[1], program.scene->start_yaw};
-    }
-  }
-
-  /// Runs until the end; `contact` gives the planar force on the base in base axes, `script` sets signals.
-  void run(double longest) {
-    Eigen::VectorXd last;
-    while (!runner.finished() && base.time < longest) {
-      base.sense(sensed);
-      script();
-      const Eigen::VectorXd& tau = runner.step(sensed);
-      const Eigen::Vector3d command = base.commanded(tau);
-      if (runner.scheduler().transition()) switched = base.time;
-      const bool near_switch = base.time > 0.5 && base.time - switched < 0.25;
-      if (last.size() > 0 && near_switch) {
-        largest_step = std::max(largest_step, (command - last).head<2>().norm());
-      }
-      last = command;
-      base.step(tau, contact());
-      look();
-    }
-  }
-  void hear(const std::string& name, const std::function<void(SignalSample&)>& fill) {
-    for (std::size_t i = 0; i < program.signals.size(); ++i) {
-      if (program.signals[i].name != name) continue;
-      sensed.signals[i].valid = true;
-      sensed.signals[i].stamp = base.time;
-      fill(sensed.signals[i]);
-    }
-  }
-  void hear_number(const std::string& name, double value) {
-    hear(name, [&](SignalSample& s) { s.number = value; });
-  }
-  void hear_boolean(const std::string& name, bool value) {
-    hear(name, [&](SignalSample& s) { s.boolean = value; });
-  }
-  std::string task() const {
-    const int now = runner.scheduler().task();
-    return now < 0 ? "" : runner.scheduler().tasks()[static_cast<std::size_t>(now)].name;
-  }
-  /// "drive -> yield -> wait -> done"
-  std::string way() const {
-    std::string text;
-    for (const Transition& t : runner.transitions()) {
-      text += (text.empty() ? "" : " -> ") + runner.scheduler().tasks()[static_cast<std::size_t>(t.to)].name;
-    }
-    return text;
-  }
-
-  lang::Program program;
-  Runner runner;
-  Sensed sensed;
-  PlanarBase base;
-  std::function<void()> script = [] {};
-  std::function<Eigen::Vector3d()> contact = [] { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
-  std::function<void()> look = [] {};
-  double switched = 0.0;
-  double largest_step = 0.0;  ///< [N] of the commanded force in a tick, while switches blend
-};
 
 /// A stiff face that looks along -x at `x`: springs at the corners of the footprint.
 struct Face {
@@ -131,7 +53,7 @@ struct Face {
 };
 
 TEST(Obstacle, IsMetGentlyAndTheRunFailsAfterThreeAttempts) {
-  Case run(load("obstacle.yaml"));
+  Case run(load_shipped("obstacle.yaml"));
   Face crate{2.4, 1e5};
   std::vector<double> contact_times, reaction;
   double v_at_contact = 0.0;
@@ -170,7 +92,7 @@ TEST(Obstacle, IsMetGentlyAndTheRunFailsAfterThreeAttempts) {
 }
 
 TEST(Obstacle, ThatGoesAwayLetsTheRobotReachItsGoal) {
-  Case run(load("obstacle.yaml", {{"cruise", "0.40 m/s"}}));
+  Case run(load_shipped("obstacle.yaml", {{"cruise", "0.40 m/s"}}));
   Face crate{2.4, 1e4};
   int yields = 0;
   run.contact = [&]() -> Eigen::Vector3d {
@@ -187,7 +109,7 @@ TEST(Obstacle, ThatGoesAwayLetsTheRobotReachItsGoal) {
 }
 
 struct HospitalRun : Case {
-  explicit HospitalRun(lang::Program p = load("hospital.yaml")) : Case(std::move(p)) {
+  explicit HospitalRun(lang::Program p = load_shipped("hospital.yaml")) : Case(std::move(p)) {
     script = [this] {
       if (task() == "load" || task() == "unload") {
         if (stop_began < 0.0) stop_began = base.time;
@@ -274,7 +196,7 @@ TEST(Hospital, ALostScannerStopsTheRobotAtOnceAndALostStopKeyFails) {
 }
 
 TEST(Hospital, ADriverThatWantsOutIsHeldAtTheBoundaryWhichIsNamed) {
-  lang::Program p = load("hospital.yaml");
+  lang::Program p = load_shipped("hospital.yaml");
   for (lang::FrameDeclaration& f : p.frames) {
     if (f.name == "pharmacy") f.pose.position = {3.0, 2.0, 0.0};
   }
@@ -291,90 +213,6 @@ TEST(Hospital, ADriverThatWantsOutIsHeldAtTheBoundaryWhichIsNamed) {
       << shortfall->row;
   ASSERT_FALSE(shortfall->held_back_by.empty());
   EXPECT_EQ(shortfall->held_back_by[0], "always.boundary.edge3");
-}
-
-/// The partner's socket, as the robot sees it: noisy, late and seldom; and the hook's latch.
-struct DockingRun : Case {
-  DockingRun() : Case(load("docking.yaml")) {
-    script = [this] {
-      past.push_back(base_pose());
-      const double late = base.time - delay;
-      const bool due = late >= 0.0 && static_cast<std::uint64_t>(base.time / period + 0.5) % 67 == 0;
-      if (due && !lost(base.time)) {
-        const solver::Pose then = past[static_cast<std::size_t>(late / period + 0.5)];
-        hear("partner", [&](SignalSample& s) {
-          s.stamp = late;
-          s.pose = then.inverse() * socket;
-          s.pose.position += solver::Vector3(noise(random), noise(random), 0.0);
-          s.pose.rotation = s.pose.rotation * solver::rotation_from_rpy(0, 0, 2.0 * noise(random));
-        });
-      }
-      hear_boolean("latch", latched);
-    };
-    contact = [this]() -> Eigen::Vector3d {
-      const solver::Vector3 hook_at(-0.40, 0.0, 0.15);  // of the robot file
-      const solver::Pose pose = base_pose();
-      const solver::Vector3 r = pose.rotation * hook_at;
-      const solver::Vector3 at = socket.inverse() * (pose * hook_at);
-      const solver::Vector3 v_base = pose.rotation * solver::Vector3(base.V.x(), base.V.y(), 0.0);
-      const solver::Vector3 v =
-          socket.rotation.transpose() * (v_base + base.V.z() * solver::Vector3::UnitZ().cross(r));
-      deepest = std::max(deepest, at.x());
-      if (at.x() > 0.0 && std::abs(at.y()) < 0.03 && 2e4 * at.x() > 10.0) latched = true;
-      double f = -2e4 * at.x() - 600.0 * v.x();
-      if (!latched) f = at.x() > 0.0 ? std::min(f, 0.0) : 0.0;
-      pressed = std::max(pressed, -f);
-      const solver::Vector3 world = socket.rotation * solver::Vector3(f, 0, 0);
-      const solver::Vector3 local = pose.rotation.transpose() * world;
-      return {local.x(), local.y(), hook_at.x() * local.y() - hook_at.y() * local.x()};
-    };
-  }
-  solver::Pose base_pose() const {
-    return {solver::rotation_from_rpy(0, 0, base.pose.z()), {base.pose.x(), base.pose.y(), 0.0}};
-  }
-
-  solver::Pose socket{solver::rotation_from_rpy(0, 0, std::numbers::pi - 0.1), {-1.6, 0.2, 0.15}};
-  std::vector<solver::Pose> past;
-  double delay = 0.060;  // [s]
-  std::function<bool(double)> lost = [](double) { return false; };
-  std::mt19937 random{7};
-  std::normal_distribution<double> noise{0.0, 0.001};  // [m], and twice as many rad
-  bool latched = false;
-  double deepest = -10.0, pressed = 0.0;
-};
-
-TEST(Docking, HooksOnWithANoisyLateAndSeldomPoseOfThePartner) {
-  DockingRun run;
-  run.run(120.0);
-  std::printf("docking: %.1f s, pressed %.1f N, %s\n", run.base.time, run.pressed, run.way().c_str());
-  EXPECT_EQ(run.runner.state(), RunState::done) << run.way();
-  EXPECT_TRUE(run.latched);
-  EXPECT_LE(run.pressed, 20.0 + std::sqrt(20.0 * 20.0 + 2e4 * run.base.inertia()(0, 0) * 0.08 * 0.08));
-}
-
-TEST(Docking, StandsStillWhileThePartnerIsLostAndGoesOnAfterwards) {
-  DockingRun run;
-  run.lost = [](double t) { return t > 3.0 && t < 6.0; };
-  double fastest = 0.0;
-  run.look = [&] {
-    if (run.base.time > 5.0 && run.base.time < 6.0) fastest = std::max(fastest, run.base.V.norm());
-  };
-  run.run(120.0);
-  EXPECT_EQ(run.runner.state(), RunState::done) << run.way();
-  EXPECT_LT(fastest, 0.01);
-}
-
-TEST(Docking, ALatchThatNeverClosesFailsAfterItsAttempts) {
-  DockingRun run;
-  const auto contact = run.contact;
-  run.contact = [&, contact] {
-    const Eigen::Vector3d f = contact();
-    run.latched = false;
-    return f;
-  };
-  run.run(300.0);
-  EXPECT_EQ(run.runner.state(), RunState::failed) << run.way();
-  EXPECT_EQ(run.runner.transitions().back().refusal, Refusal::attempts) << run.way();
 }
 
 TEST(Tick, MakesNoHeapCallWithSignalsRegionsAndInterruptions) {
@@ -407,7 +245,7 @@ TEST(Switches, StepTheTorqueByNoMoreThanTheirShareOfWhatFades) {
   // Without blending the same run steps harder.
   HospitalRun smooth;
   smooth.nearest = [](double t) { return t < 20.0 || t > 22.0 ? 5.0 : 0.5; };
-  lang::Program p = load("hospital.yaml");
+  lang::Program p = load_shipped("hospital.yaml");
   for (lang::Task& t : p.tasks) t.blend.constant = 0.0;
   HospitalRun hard(p);
   hard.nearest = smooth.nearest;

@@ -8,6 +8,8 @@
 
 namespace zwang::runtime::test {
 
+inline const std::vector<AxisStatements> ahead = {drive("go.x", Axis::x, Quantity::velocity, 0.1)};
+
 /// Runs a scheduler by hand: the base stands still unless a test moves it, and the solver's results are made
 /// up.
 struct Bench {
