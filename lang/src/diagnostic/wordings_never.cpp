@@ -14,6 +14,7 @@ namespace {
 std::string within(double low, double high, const std::string& unit) {
   if (std::isinf(low)) return "at most " + figure(high, unit);
   if (std::isinf(high)) return "at least " + figure(low, unit);
+  if (low == high) return "at " + figure(low, unit);
   return "within [" + figure(low, unit) + ", " + figure(high, unit) + "]";
 }
 
@@ -26,8 +27,12 @@ std::string ticked(const std::string& path) {
   return is_name ? "`" + path + "`" : path;
 }
 
-std::string by_the_range(const std::string& by) {
-  return by.empty() ? "this base keeps it so" : ticked(by) + " keeps it so";
+/// "`c.x.velocity` stays within [-0.1 m/s, 0.1 m/s], as `c.x` keeps it so"
+std::string stays(const Kept& kept) {
+  const std::string by = kept.by.empty() ? "this base keeps it so" : ticked(kept.by) + " keeps it so";
+  const std::string now =
+      kept.parameter.empty() ? "" : " with the value that `" + kept.parameter + "` has now";
+  return "`" + kept.what + "` stays " + within(kept.low, kept.high, kept.unit) + ", as " + by + now;
 }
 
 }  // namespace
@@ -180,13 +185,20 @@ Diagnostic set_from_unknown(const Span& span, const std::string& frame, const st
   return diagnostic;
 }
 
-Diagnostic never_true(const Span& span, const std::string& what, double low, double high,
-                      const std::string& unit, const std::string& by, const Span& range) {
-  return related_where_known(warning("W511", span,
-                                     "this is never true: `" + what + "` stays " + within(low, high, unit) +
-                                         ", as " + by_the_range(by),
+Diagnostic never_true(const Span& span, const Kept& kept) {
+  return related_where_known(warning("W511", span, "this is never true: " + stays(kept),
                                      "compare with a value that it can come to, or take the exit out"),
-                             range, "it is bounded here");
+                             kept.range, "it is bounded here");
+}
+
+Diagnostic only_from_outside(const Span& span, const Kept& kept, bool or_entered) {
+  const std::string who = or_entered ? "only an entry from outside of the range, or a push from outside,"
+                                     : "only a push from outside";
+  return related_where_known(
+      warning("W511", span, who + " makes this true: " + stays(kept),
+              "compare with a value that the task comes to, or take the exit out; one that watches "
+              "for a push leads to `failed`"),
+      kept.range, "it is bounded here");
 }
 
 Diagnostic not_entered_yet(const Span& span, const std::string& what, const std::string& task) {
@@ -196,13 +208,10 @@ Diagnostic not_entered_yet(const Span& span, const std::string& what, const std:
       "ask for a task that comes earlier, or take the exit out");
 }
 
-Diagnostic always_true(const Span& span, const std::string& what, double low, double high,
-                       const std::string& unit, const std::string& by, const Span& range) {
-  return related_where_known(warning("W511", span,
-                                     "this is true at once: `" + what + "` stays " + within(low, high, unit) +
-                                         ", as " + by_the_range(by),
+Diagnostic always_true(const Span& span, const Kept& kept) {
+  return related_where_known(warning("W511", span, "this is true at once: " + stays(kept),
                                      "compare with a value that it comes to later, or take the exit out"),
-                             range, "it is bounded here");
+                             kept.range, "it is bounded here");
 }
 
 Diagnostic contradicts_itself(const Span& span) {
@@ -260,7 +269,7 @@ Diagnostic limited_range(const Span& span, const Unreached& u, const Span& limit
 Diagnostic never_saturated(const Span& span, const Unreached& u, double motors) {
   const AxisUnits unit = axis_units(u.turns);
   return warning("W602", span,
-                 "`" + u.axis + "` is never saturated: blocked, it presses with " +
+                 "`" + u.axis + "` is not saturated when it is blocked: it presses with " +
                      figure(u.pressed, unit.force) + " at most (" + figure(u.mass, unit.mass) + " x " +
                      figure(u.acceleration, unit.acceleration) + "), the motors make " +
                      figure(motors, unit.force),

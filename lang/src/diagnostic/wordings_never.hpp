@@ -54,12 +54,20 @@ Diagnostic set_from_unknown(const Span& span, const std::string& frame, const st
                             const std::string& signal, SetIn in, const Span* when,
                             const std::string& condition);
 
-/// `what` lies within [low, high] by the range `by`. SI.
+/// `what` waits for a task that comes later.
 Diagnostic not_entered_yet(const Span& span, const std::string& what, const std::string& task);
-Diagnostic never_true(const Span& span, const std::string& what, double low, double high,
-                      const std::string& unit, const std::string& by, const Span& range);
-Diagnostic always_true(const Span& span, const std::string& what, double low, double high,
-                       const std::string& unit, const std::string& by, const Span& range);
+/// A measured number that the range `by` keeps within [low, high]. SI.
+struct Kept {
+  std::string what, unit;
+  double low = 0.0, high = 0.0;
+  std::string by;
+  std::string parameter;  ///< that an end of the range is; empty: none
+  Span range;
+};
+Diagnostic never_true(const Span& span, const Kept& kept);
+/// `or_entered`: the task may begin outside of the range, too.
+Diagnostic only_from_outside(const Span& span, const Kept& kept, bool or_entered);
+Diagnostic always_true(const Span& span, const Kept& kept);
 Diagnostic contradicts_itself(const Span& span);
 /// Two regions that hold one base and are `apart` [m].
 Diagnostic excluding_regions(const Span& span, const std::string& own, const std::string& other, double apart,

@@ -63,4 +63,36 @@ SpeedLimit most_speed(const PlannedTask& plan, const solver::AttachedFrame& poin
   return limit;
 }
 
+// An exit of a task that stands still waits for somebody who pushes. So a standing base has no limit.
+SpeedLimit speed_of_drivers(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe) {
+  constexpr double origin = 1e-6;    // [m]
+  constexpr double overshoot = 1.1;  // of what a driver asks for
+  const auto is_origin = [](const solver::AttachedFrame& frame) {
+    return frame.body == 0 && frame.pose.position.head<2>().norm() < origin;
+  };
+  if (!is_origin(point)) return {};
+  SpeedLimit driven;
+  double squares = 0.0;
+  bool holds_x = false, holds_y = false;
+  for (const PlannedAxis& axis : plan.axes) {
+    if (!axis.driver || axis.move.body != 0) continue;
+    const bool turns_only = axis.turns() && !axis.is_feature() && is_origin(axis.move);
+    if (turns_only) continue;
+    const bool drives = is_origin(axis.move) && axis.in.body == 0 && !axis.is_feature() && !axis.is_soft &&
+                        !axis.is_spring && axis.driver == solver::Quantity::velocity && axis.target &&
+                        !axis.build_up && (axis.axis == Axis::x || axis.axis == Axis::y);
+    if (!drives) return {};
+    (axis.axis == Axis::x ? holds_x : holds_y) = true;
+    squares += *axis.target * *axis.target;
+    if (*axis.target != 0.0) driven = {0.0, axis.path, axis.driver_span()};
+  }
+  for (const Axis axis : {Axis::x, Axis::y}) {
+    if (axis == Axis::x ? holds_x : holds_y) continue;
+    const AxisFigures* figures = probe.figures(axis_of_base(axis, false));
+    if (figures == nullptr || figures->is_reachable) return {};
+  }
+  driven.most = squares > 0.0 ? overshoot * std::sqrt(squares) : solver::infinity;
+  return driven;
+}
+
 }  // namespace zwang::lang

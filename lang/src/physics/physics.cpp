@@ -51,6 +51,7 @@ namespace {
 struct Asked {
   const std::optional<Scene>& scene;
   const ExitConditions& conditions;
+  const AllTasks& all;
   std::vector<int> held_steerings;
   double floor_friction;
 };
@@ -61,13 +62,13 @@ void ask_exits_of_task(const CheckContext& context, std::size_t index, const Pla
                        const Asked& asked, Probe& probe, Remarks& remarks) {
   if (context.diagnostics.has_errors()) return;
   ask_contradiction(context, plan, probe, remarks);
-  ask_exits(context, plan, plan.task->exits, asked.conditions.of_tasks[index], probe, remarks);
+  ask_exits(context, plan, plan.task->exits, asked.conditions.of_tasks[index], asked.all, probe, remarks);
   ask_stopping(context, plan, asked.conditions, index, probe, remarks);
 }
 
 void ask_task(const CheckContext& context, std::size_t index, const Asked& asked, Probe& probe,
               Remarks& remarks) {
-  PlannedTask plan = plan_task(context, context.file.tasks[index]);
+  PlannedTask plan = asked.all.plans[index];
   ask_exits_of_task(context, index, plan, asked, probe, remarks);
   ask_reach(plan, probe, remarks);
   ask_steering(context, plan, asked.held_steerings, probe, remarks);
@@ -109,10 +110,12 @@ void check_physics(CheckContext& context, const std::optional<Scene>& scene, con
   try {
     Probe probe(*context.robot, scene, budget);
     Remarks remarks(context.diagnostics);
-    const Asked asked{scene, conditions, held_steerings(context, context.robot->model),
+    AllTasks all{{}, scene};
+    for (const TaskText& task : context.file.tasks) all.plans.push_back(plan_task(context, task));
+    const Asked asked{scene, conditions, all, held_steerings(context, context.robot->model),
                       scene.value_or(Scene{}).floor_friction};
     if (!context.diagnostics.has_errors())
-      ask_exits(context, plan_always(context), context.file.always_exits, conditions.of_always, probe,
+      ask_exits(context, plan_always(context), context.file.always_exits, conditions.of_always, all, probe,
                 remarks);
     ask_stop(context.file.robot.span, probe, remarks);
     ask_grip_of_stop(context.file.robot.span, scene, probe, remarks);

@@ -102,9 +102,14 @@ void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings,
 void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,
                        const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
 
+/// What an exit is asked about beside its own task.
+struct AllTasks {
+  std::vector<PlannedTask> plans;  ///< of all tasks, as they are written
+  const std::optional<Scene>& scene;
+};
 /// W511: exits that the ranges in force decide. `exits` are those of the plan's task, or of `always`.
 void ask_exits(const CheckContext& context, const PlannedTask& plan, const std::vector<ExitText>& exits,
-               const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
+               const std::vector<Condition>& conditions, const AllTasks& all, Probe& probe, Remarks& remarks);
 
 /// W620: guards on a distance that fire too late to stop. `index`: of the plan's task.
 void ask_stopping(const CheckContext& context, const PlannedTask& plan, const ExitConditions& conditions,
@@ -119,6 +124,9 @@ struct SpeedLimit {
 /// Of a point on the base; infinite for points elsewhere.
 SpeedLimit most_speed(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
 SpeedLimit most_turning(const PlannedTask& plan, Probe& probe);
+/// What drivers of velocity make of the base's origin, with a tenth for overshoot. Infinite where anything
+/// else drives it, or where nothing moves it.
+SpeedLimit speed_of_drivers(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
 
 /// Acceleration that the plan allows along the axis in the direction of `sign`. It counts ranges on that very
 /// axis, and on the base's own axes of the same kind. Infinite where there is none. `own`: the axis's own

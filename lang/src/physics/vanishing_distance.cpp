@@ -18,16 +18,16 @@ namespace {
 constexpr double least_in_plane = 5e-5;
 
 /// The distance that is to be reached, and its place in the file.
-struct Asked {
+struct AskedDistance {
   double most;  ///< [m]
   Span span;
 };
 
-std::optional<Asked> asked_of(const PlannedAxis& axis) {
+std::optional<AskedDistance> asked_of(const PlannedAxis& axis) {
   const bool drives = axis.driver == solver::Quantity::position;
-  if (drives && axis.target) return Asked{*axis.target, axis.driver_span()};
+  if (drives && axis.target) return AskedDistance{*axis.target, axis.driver_span()};
   const auto& range = axis[solver::Quantity::position];
-  if (!drives && range) return Asked{range->high, axis.span(solver::Quantity::position)};
+  if (!drives && range) return AskedDistance{range->high, axis.span(solver::Quantity::position)};
   return std::nullopt;
 }
 
@@ -36,7 +36,7 @@ std::optional<Asked> asked_of(const PlannedAxis& axis) {
 void ask_distance(const PlannedTask& plan, const Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
     if (axis.measure != solver::Measure::distance || axis.text == nullptr || axis.is_spring) continue;
-    const std::optional<Asked> asked = asked_of(axis);
+    const std::optional<AskedDistance> asked = asked_of(axis);
     if (!asked || asked->most < 0.0) continue;  // E413
     const double height = probe.kept_height(axis);
     if (asked->most >= std::hypot(height, least_in_plane)) continue;

@@ -1,0 +1,313 @@
+// A number that a condition measures.
+//
+//   measured                    lies within
+//   group.axis.position         the ranges of positions on that axis, and the regions in force; in the
+//                               first task s0 +- v t, too
+//   group.axis.velocity         the ranges of velocities on it
+//   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
+//   speed(frame)                what `speed` and the ranges of the base's axes leave
+//   moved(frame)                that speed, or that of velocity drivers, times the time t until the task ends
+//   at the latest
+//                               on a straight way no longer than the region in force
+//   turned(frame)               the turning speed times the time
+//   elapsed, since(own task)    that time
+//   entries(task)               1 where no way leads back to it, 0 where none leads from it to this task
+//   since(task)                 nothing where no way leads from it to this task
+//   an output                   its start, and each value that the file sets it to
+//
+// A condition that also asks for `elapsed < t` has t in the place of the time.
+#include "physics/known_number.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/left_behind.hpp"
+#include "physics/measured_number.hpp"
+#include "zwang/lang/condition_function.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// Which parameter an end of the range is; empty: none.
+std::string parameter_of(const PlannedAxis& axis, solver::Quantity quantity) {
+  if (axis.text == nullptr || !(*axis.text)[quantity]) return "";
+  const StatementText& statement = *(*axis.text)[quantity];
+  for (const ValueText* end : {&statement.low, &statement.high, &statement.value}) {
+    if (end->kind == ValueKind::parameter) return end->name;
+  }
+  return "";
+}
+
+Known known_output(const CheckContext& context, int index) {
+  const Output& output = context.symbols.outputs[static_cast<std::size_t>(index)].output;
+  Known known{{output.start, output.start}, output.name, output.span, true, index};
+  for (const ValueText* value : values_set(context, output.name)) {
+    const std::optional<bool> truth = truth_of(*value);
+    if (!truth && value->kind != ValueKind::quantity) return {};
+    const double given = truth ? (*truth ? 1.0 : 0.0) : value->quantity.value;
+    known.bounds.low = std::min(known.bounds.low, given);
+    known.bounds.high = std::max(known.bounds.high, given);
+  }
+  return known;
+}
+
+}  // namespace
+
+std::vector<const ValueText*> values_set(const CheckContext& context, const std::string& output) {
+  std::vector<const ValueText*> values;
+  const auto gather = [&](const std::vector<SetText>& sets) {
+    for (const SetText& set : sets) {
+      if (set.kind == SetKind::output && set.name.text == output) values.push_back(&set.value);
+    }
+  };
+  for (const ExitText& exit : context.file.always_exits) gather(exit.set);
+  for (const TaskText& task : context.file.tasks) {
+    gather(task.set_on_entry);
+    for (const ExitText& exit : task.exits) gather(exit.set);
+  }
+  return values;
+}
+
+KnownNumbers::KnownNumbers(const CheckContext& context, const PlannedTask& plan, const AllTasks& all,
+                           Probe& probe)
+    : context_(context),
+      plan_(plan),
+      probe_(probe),
+      all_(all),
+      is_start_(plan.task == nullptr || plan.task->name.text == context.file.start.text),
+      is_first_(plan.task != nullptr && is_start_ && !is_entered_again(context, plan.task->name.text) &&
+                !leads_back(context)),
+      regions_(confinements(context, plan)) {}
+
+void KnownNumbers::set_time(const Ending& latest, double until) {
+  latest_ = latest;
+  until_ = until;
+}
+
+/// The tasks from which a way leads to this one. Asked once.
+const std::vector<const PlannedTask*>& KnownNumbers::before() {
+  if (!before_) before_ = tasks_before(context_, plan_, all_.plans);
+  return *before_;
+}
+
+bool KnownNumbers::is_entered_with(const ExpressionNode& node, const Bounds& demanded, const Known& known) {
+  const auto meets = [&](const Bounds& left) { return !both(left, demanded).is_empty(); };
+  if (node.op == Op::of_frame) {
+    const bool turning = calls(node, "turned");
+    const double left = speed_left(before(), turning, probe_);
+    // What is faster at first goes farther, too.
+    return calls(node, "speed") ? meets({left, left}) : left > known.speed;
+  }
+  const PlannedAxis* axis =
+      node.op == Op::feature ? feature_axis(node) : axis_measured(context_, plan_, node);
+  if (axis == nullptr) return false;
+  const bool is_velocity = node.op == Op::coordinate && node.what == CoordinateQuantity::velocity;
+  // A run begins at rest.
+  if (is_velocity && is_start_ && meets({std::min(0.0, known.bounds.low), std::max(0.0, known.bounds.high)}))
+    return true;
+  return meets(is_velocity ? velocities_left(before(), *axis, probe_) : positions_left(before(), *axis));
+}
+
+Known KnownNumbers::of(const ExpressionNode& node) {
+  switch (node.op) {
+    case Op::elapsed:
+      return {{0.0, latest_.time}, latest_.by, latest_.span, true};
+    case Op::of_frame:
+      if (calls(node, "speed")) return known_speed(node);
+      if (calls(node, "turned")) return known_turn(node);
+      return calls(node, "moved") ? known_way(node) : Known{};
+    case Op::of_task:
+      return calls(node, "entries") ? known_entries(node) : known_since(node);
+    case Op::coordinate:
+      return known_coordinate(node);
+    case Op::feature:
+      return known_feature(node);
+    case Op::output:
+      return known_output(context_, node.index);
+    default:
+      return {};
+  }
+}
+
+Known KnownNumbers::known_speed(const ExpressionNode& node) {
+  const SpeedLimit limit = limit_of(node);
+  Known known{{0.0, limit.most}, limit.path, limit.span};
+  known.speed = limit.most;
+  return known;
+}
+
+Known KnownNumbers::known_way(const ExpressionNode& node) {
+  Known known;
+  if (std::isfinite(until_)) {
+    const SpeedLimit most = limit_of(node), driven = driven_limit(node);
+    const SpeedLimit& limit = driven.most < most.most ? driven : most;
+    known = {{0.0, limit.most * until_}, limit.path, limit.span};
+    known.speed = limit.most;
+  }
+  if (!place_of(context_, node.index).is_known || place_of(context_, node.index).frame.body != 0)
+    return known;
+  for (const Confinement& region : regions_) {
+    const double longest = longest_way(region, plan_, probe_, is_first_);
+    if (longest < known.bounds.high) known = {{0.0, longest}, region.path, region.span};
+  }
+  return known;
+}
+
+Known KnownNumbers::known_turn(const ExpressionNode& node) {
+  const Place place = place_of(context_, node.index);
+  if (!std::isfinite(until_) || !place.is_known || place.frame.body != 0) return {};
+  const SpeedLimit limit = most_turning(plan_, probe_);
+  Known known{{0.0, limit.most * until_}, limit.path, limit.span};
+  known.speed = limit.most;
+  return known;
+}
+
+Known KnownNumbers::known_since(const ExpressionNode& node) const {
+  const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
+  if (is_yet_to_come(task)) return {{solver::infinity, -solver::infinity}, task, {}, true, -1, true};
+  const bool is_own = plan_.task != nullptr && plan_.task->name.text == task && !leads_back(context_);
+  return is_own ? Known{{0.0, latest_.time}, latest_.by, latest_.span, true} : Known{};
+}
+
+/// No way leads from it to the task whose exits are looked at.
+bool KnownNumbers::is_yet_to_come(const std::string& task) const {
+  return plan_.task != nullptr && plan_.task->name.text != task && !leads_back(context_) &&
+         !is_entered_after(context_, plan_.task->name.text, task);
+}
+
+Known KnownNumbers::known_entries(const ExpressionNode& node) const {
+  const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
+  if (is_yet_to_come(task)) return {{0.0, 0.0}, "a file without a way from it to this task", {}, true};
+  if (leads_back(context_) || is_entered_again(context_, task)) return {};
+  return {{0.0, 1.0}, "a file without a way back to it", {}, true};
+}
+
+SpeedLimit KnownNumbers::limit_of(const ExpressionNode& node) {
+  const Place place = place_of(context_, node.index);
+  return place.is_known ? most_speed(plan_, place.frame, probe_) : SpeedLimit{};
+}
+
+SpeedLimit KnownNumbers::driven_limit(const ExpressionNode& node) {
+  const Place place = place_of(context_, node.index);
+  return place.is_known ? speed_of_drivers(plan_, place.frame, probe_) : SpeedLimit{};
+}
+
+Known KnownNumbers::known_coordinate(const ExpressionNode& node) {
+  const AxisText& text = group_measured(context_, plan_, node).axes[static_cast<std::size_t>(node.axis)];
+  if (text.is_free && node.what == CoordinateQuantity::force)
+    return {{0.0, 0.0}, "an axis that is `free`", text.name.span, true};
+  const PlannedAxis* axis = axis_measured(context_, plan_, node);
+  if (axis == nullptr) return {};
+  switch (node.what) {
+    case CoordinateQuantity::position:
+      return known_position(*axis);
+    case CoordinateQuantity::velocity:
+      return known_velocity(*axis);
+    case CoordinateQuantity::force:
+      return known_force(*axis);
+    default:
+      return {};
+  }
+}
+
+const PlannedAxis* KnownNumbers::feature_axis(const ExpressionNode& node) const {
+  const Feature& feature = context_.symbols.features[static_cast<std::size_t>(node.index)].feature;
+  const auto at = std::find_if(plan_.axes.begin(), plan_.axes.end(), [&](const PlannedAxis& axis) {
+    return axis.is_feature() && axis.move_name == feature.name && axis[solver::Quantity::position];
+  });
+  return at != plan_.axes.end() ? &*at : nullptr;
+}
+
+Known KnownNumbers::known_feature(const ExpressionNode& node) {
+  const PlannedAxis* axis = feature_axis(node);
+  return axis != nullptr ? known_position(*axis) : Known{};
+}
+
+/// The range of the quantity; nullopt where a `set` of the file may widen it.
+std::optional<solver::Range> KnownNumbers::range_of(const PlannedAxis& axis,
+                                                    solver::Quantity quantity) const {
+  const std::string parameter = parameter_of(axis, quantity);
+  const bool is_fixed = parameter.empty() || !is_set_later(context_, parameter);
+  return is_fixed ? axis[quantity] : std::nullopt;
+}
+
+Known KnownNumbers::known_position(const PlannedAxis& axis) {
+  Known known;
+  if (!axis.is_placed) return known;  // what measures the frame moves it, too
+  if (const auto range = range_of(axis, solver::Quantity::position)) {
+    known = {{range->low, range->high}, axis.path, axis.span(solver::Quantity::position)};
+    known.parameter = parameter_of(axis, solver::Quantity::position);
+  }
+  known.is_entered_anywhere = plan_.task != nullptr && !is_first_;
+  for (const Confinement& region : regions_) {
+    const auto left = left_of_position(region, axis, probe_.robot());
+    const Bounds rest = left ? both(known.bounds, {left->low, left->high}) : known.bounds;
+    if (rest.low > known.bounds.low || rest.high < known.bounds.high)
+      known = {rest, region.path, region.span};
+    known.is_entered_anywhere = plan_.task != nullptr && !is_first_;
+  }
+  const bool starts_here = is_start_ && !axis.is_set && (axis.is_feature() || !axis.is_on_path);
+  if (!starts_here) return known;
+  const double from = probe_.position_at_start(axis);
+  // From outside it goes back into the range, through all that lies between.
+  if (std::isfinite(known.bounds.low)) known.bounds.low = std::min(known.bounds.low, from);
+  if (std::isfinite(known.bounds.high)) known.bounds.high = std::max(known.bounds.high, from);
+  const bool is_measured_from_start = is_first_ && axis.in_world && axis.move.body == 0 &&
+                                      axis.measure == solver::Measure::axis && !axis.turns() &&
+                                      std::isfinite(latest_.time);
+  if (!is_measured_from_start) return known;
+  SpeedLimit limit = most_speed(plan_, axis.move, probe_);
+  const double own = plan_.speed_limit(axis);
+  if (own < limit.most) limit = {own, axis.path, axis.span(solver::Quantity::velocity)};
+  const double way = limit.most * latest_.time;
+  const Bounds reached = both(known.bounds, {from - way, from + way});
+  if (reached.low > known.bounds.low || reached.high < known.bounds.high)
+    known = {reached, limit.path, limit.span};
+  return towards_target(axis, from, known);
+}
+
+/// A driver of position goes from where it starts to its target; a tenth and 2 cm are left for overshoot.
+Known KnownNumbers::towards_target(const PlannedAxis& axis, double from, Known known) {
+  if (axis.driver != solver::Quantity::position || !axis.target || axis.is_spring || axis.is_soft)
+    return known;
+  const double beyond = 0.1 * std::abs(*axis.target - from) + 0.02;
+  const Bounds way{std::min(from, *axis.target) - beyond, std::max(from, *axis.target) + beyond};
+  const Bounds left = both(known.bounds, way);
+  if (left.low > known.bounds.low || left.high < known.bounds.high)
+    known = {left, axis.path, axis.driver_span()};
+  return known;
+}
+
+Known KnownNumbers::known_velocity(const PlannedAxis& axis) {
+  Known known;
+  for (const PlannedAxis& other : plan_.axes) {
+    const auto range = range_of(other, solver::Quantity::velocity);
+    if (!range || other.move.body != axis.move.body) continue;
+    const int sign = &other == &axis ? 1 : probe_.alignment(axis, other);
+    if (sign == 0) continue;
+    const Bounds seen = sign > 0 ? Bounds{range->low, range->high} : Bounds{-range->high, -range->low};
+    const Bounds left = both(known.bounds, seen);
+    if (!(left.low > known.bounds.low || left.high < known.bounds.high)) continue;
+    known = {left, other.path, other.span(solver::Quantity::velocity)};
+    known.parameter = parameter_of(other, solver::Quantity::velocity);
+  }
+  return known;
+}
+
+Known KnownNumbers::known_force(const PlannedAxis& axis) const {
+  if (!axis.driver) return {};
+  const std::string parameter = parameter_of(axis, solver::Quantity::force);
+  if (!parameter.empty() && is_set_later(context_, parameter)) return {};
+  Known known;
+  if (axis.driver == solver::Quantity::force) {
+    if (!axis.target) return {};
+    known = {{std::min(0.0, *axis.target), std::max(0.0, *axis.target)}, axis.path, axis.driver_span(), true};
+  } else if (const auto& range = axis[solver::Quantity::force]) {
+    known = {{range->low, range->high}, axis.path, axis.span(solver::Quantity::force), true};
+  }
+  known.parameter = parameter;
+  return known;
+}
+
+}  // namespace zwang::lang

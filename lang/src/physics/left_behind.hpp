@@ -1,0 +1,21 @@
+/// What the tasks before a task may leave it with.
+#pragma once
+
+#include <vector>
+
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+/// The tasks from which a way leads to the plan's task, itself left out. Empty for `always`.
+std::vector<const PlannedTask*> tasks_before(const CheckContext& context, const PlannedTask& plan,
+                                             const std::vector<PlannedTask>& all);
+
+/// Velocities to which one of the tasks drives a motion that the axis is, or is a part of.
+Bounds velocities_left(const std::vector<const PlannedTask*>& before, const PlannedAxis& axis, Probe& probe);
+/// The speed, or of `turning` the rate of turn, to which one of the tasks drives the base; 0 where none does.
+double speed_left(const std::vector<const PlannedTask*>& before, bool turning, Probe& probe);
+/// Positions to which one of the tasks drives the same axis.
+Bounds positions_left(const std::vector<const PlannedTask*>& before, const PlannedAxis& axis);
+
+}  // namespace zwang::lang
