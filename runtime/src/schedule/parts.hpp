@@ -49,7 +49,8 @@ struct ActiveAxis {
   bool is_outside = false;    ///< of its position range or its region, by more than what a brake leaves
   int row = -1;               ///< of its driver in the set of the active task; -1: not in force
   bool is_met = false;        ///< that row gets what it asks
-  double built_up = 0.0;      ///< what `build_up` has added to the target: q [m], [m/s], [rad] or [rad/s]
+  double built_up = 0.0;      ///< what `build_up` has added up: q [m], [m/s], [rad] or [rad/s]
+  double added = 0.0;         ///< the part of q that the target has in this tick
   double inverse_mass = 0.0;  ///< of one that yields: of the robot along it, 1/Lambda [1/kg] or [1/kg m^2]
 };
 
@@ -153,10 +154,11 @@ struct Scheduler::Parts final : Facts {
   void list_axis(const ActiveAxis& a) noexcept;
   void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
-  void want_axis(const ActiveAxis& a) noexcept;
+  void want_axis(ActiveAxis& a) noexcept;
   void want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept;
   bool is_left_to_the_end(const ActiveAxis& a) const noexcept;
-  solver::Driver driver_of(const ActiveAxis& a) const noexcept;
+  solver::Driver driver_of(ActiveAxis& a) const noexcept;
+  double added_to(const solver::Driver& driver, const ActiveAxis& a) const noexcept;
   void yield(const ActiveAxis& a, solver::Driver& driver) const noexcept;
   double pushed_with(const ActiveAxis& a) const noexcept;
   bool find_pushes() noexcept;
