@@ -53,6 +53,7 @@ struct Runner::Parts {
   void judge_clock(const Sensed& sensed) noexcept;
   /// Whether encoders confirm what the motors were told.
   void confirm() noexcept;
+  void confirm(BlindBudget& part, BlindBudget& other) noexcept;
   /// What motors and wheels made of the last command; `measured`: the sample before it was projected.
   void compare(const solver::State& measured) noexcept;
   void judge_sensors() noexcept;
@@ -124,6 +125,7 @@ struct Runner::Parts {
   JointRates rates;
   FrozenWheel frozen_wheel;
   BlindBudget blind_budget;
+  BlindBudget blind_arm;
   HookLatch hook_latch;
   MotorWatch motors;
   SlipWatch slip;

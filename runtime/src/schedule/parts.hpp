@@ -164,6 +164,7 @@ struct Scheduler::Parts final : Facts {
   bool find_pushes() noexcept;
   solver::Range with_what_pushes(solver::Range acceleration, int base_axis) const noexcept;
   void build_up(ActiveAxis& a) noexcept;
+  bool asks_for_motion_of(const ActiveAxis& a) const noexcept;
   double error_of(const ActiveAxis& a, const solver::Driver& driver,
                   const solver::Coordinate& now) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
@@ -258,6 +259,7 @@ struct Scheduler::Parts final : Facts {
   double energy_at_end = 0.0;  ///< [J] kinetic, when an end was reached
   RestWatch rest;              ///< in an end
   bool has_stood = false;
+  bool asks_for_motion = false;  ///< as of the last solution
   std::optional<Excursion> excursion;
   std::vector<int> entries;          ///< of each task, since the start
   std::vector<double> entered_last;  ///< of each task [s]

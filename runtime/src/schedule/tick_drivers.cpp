@@ -137,6 +137,24 @@ double Scheduler::Parts::error_of(const ActiveAxis& a, const solver::Driver& dri
   return wanted[a.wanted].constraint.wraps() ? std::remainder(error, 2.0 * std::numbers::pi) : error;
 }
 
+/// The speed at which the driver would settle is that of motion: v of a velocity, e / (2 T) of a position
+/// that is off by e. A force or a spring pulls, and asks for none.
+bool Scheduler::Parts::asks_for_motion_of(const ActiveAxis& a) const noexcept {
+  constexpr double rolls = 0.01, turns = 0.1;  // [m/s], [rad/s]
+  const solver::AxisConstraint& constraint = wanted[a.wanted].constraint;
+  if (a.row < 0 || !constraint.driver || constraint.driver->makes_force()) return false;
+  const solver::Driver& driver = *constraint.driver;
+  double speed = driver.target;
+  if (driver.quantity == Quantity::position) {
+    const solver::ConstraintSet& set = blend->sets()[0].constraints;
+    const solver::Row& row = set.rows()[static_cast<std::size_t>(a.row)];
+    const solver::Coordinate& motion = set.coordinates()[static_cast<std::size_t>(row.constraint)];
+    speed = error_of(a, driver, motion) / (2.0 * driver.time_constant);
+  }
+  const bool has_speed = driver.quantity == Quantity::velocity || driver.quantity == Quantity::position;
+  return has_speed && std::abs(speed) > (constraint.is_angle() ? turns : rolls);
+}
+
 void Scheduler::Parts::build_up(ActiveAxis& a) noexcept {
   constexpr double same = 1e-9;
   const auto& constraint = wanted[a.wanted].constraint;
