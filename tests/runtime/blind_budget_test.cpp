@@ -196,17 +196,30 @@ TEST(BlindBudget, WhatALookHasFoundIsLeftBehind) {
   EXPECT_LT(course.fastest, 1.1 * 0.2);
 }
 
+constexpr double press = 20.0;  // [N]
+
+lang::Program presses() {
+  lang::Program program_ = program({task("press", {drive("press.x", Axis::x, Quantity::force, press),
+                                                   drive("press.y", Axis::y, Quantity::velocity, 0.0),
+                                                   drive("press.rz", Axis::rz, Quantity::velocity, 0.0)})});
+  program_.tasks.front().timeout = lang::Timeout{{.constant = 4.0}, to_failed, {}};
+  return program_;
+}
+
 /// A hook catches the base from 0.5 s on, within a fifth of a second, and then holds it both ways. Only the
 /// latch distinguishes this from dead encoders.
-Course pull_in_a_dock(int holds, double open_at, double stale_from) {
-  lang::Program program_ = sets_out(0.05);
+lang::Program with_latch(lang::Program program_, int holds) {
   lang::Signal latch;
   latch.name = "latch";
   latch.stale_after = {.constant = 0.2};
   latch.holds = holds;
   program_.signals = {latch};
+  return program_;
+}
+
+Course pull_in_a_dock(int holds, double open_at, double stale_from) {
   return go(
-      program_, 3.0, {},
+      with_latch(presses(), holds), 3.0, {},
       [&](PlanarBase& base, Sensed& sensed) {
         if (base.time > stale_from) return;
         const bool is_closed = base.time > 0.6 && base.time < open_at;
@@ -229,6 +242,21 @@ TEST(HookLatch, TellsADockFromDeadEncoders) {
   const Course stale = pull_in_a_dock(2, never, 1.5);
   EXPECT_EQ(stale.reason, EventCode::frozen) << "nobody says so any more";
   EXPECT_GT(stale.stopped_at, 1.7);
+}
+
+/// The hook is on a cart that rolls along, its mass left out: the base sets out with 1 m/s^2 10 ms before its
+/// encoders die. It is asked as a held press is.
+TEST(HookLatch, AHookThatRollsAlongExcusesNoTaskThatAsksForMotion) {
+  constexpr double dies_at = 0.01, closes_at = 0.003;  // [s]
+  Failing encoders;
+  const Course course = go(with_latch(sets_out(0.5), 2), 3.0, {}, [&](PlanarBase& base, Sensed& sensed) {
+    sensed.signals[0] = {.valid = true, .stamp = base.time, .boolean = base.time > closes_at};
+    if (base.time > dies_at) encoders.spoil(sensed);
+  });
+  const double asked = BlindBudget::most_lean + 2.0 / 3.0 * acceleration * BlindBudget::slackens_for;
+  EXPECT_EQ(course.reason, EventCode::frozen);
+  EXPECT_LT(course.fastest, 1.1 * (acceleration * dies_at + asked));
+  EXPECT_LT(course.at_end, 2.0 * BlindBudget::slowest);
 }
 
 /// Samples that stay the same for 10 ms under way cost a little speed, as lost ones do.
@@ -270,16 +298,6 @@ TEST(BlindBudget, AStopWithoutEncodersSaysThatTheBaseMayStillMove) {
     EXPECT_TRUE(runner.finished());
     EXPECT_EQ(runner.may_still_move(), is_dead);
   }
-}
-
-constexpr double press = 20.0;  // [N]
-
-lang::Program presses() {
-  lang::Program program_ = program({task("press", {drive("press.x", Axis::x, Quantity::force, press),
-                                                   drive("press.y", Axis::y, Quantity::velocity, 0.0),
-                                                   drive("press.rz", Axis::rz, Quantity::velocity, 0.0)})});
-  program_.tasks.front().timeout = lang::Timeout{{.constant = 4.0}, to_failed, {}};
-  return program_;
 }
 
 struct Press {

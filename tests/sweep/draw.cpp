@@ -177,7 +177,8 @@ Drawn draw(std::uint64_t seed, int index, Which which) {
   const auto one_of = [&dice](const auto& all) {
     return all[static_cast<std::size_t>(dice.below(static_cast<int>(all.size())))];
   };
-  const std::vector<Job>& all = which == Which::others ? other_jobs() : jobs();
+  const bool is_other = which == Which::others || which == Which::sound_others;
+  const std::vector<Job>& all = is_other ? other_jobs() : jobs();
   const int count = which == Which::released ? pressing_jobs : static_cast<int>(all.size());
   const Job& job = all[static_cast<std::size_t>(dice.below(count))];
   const std::string robot = one_of(job.robots);

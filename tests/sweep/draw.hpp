@@ -57,8 +57,9 @@ enum class Which {
   faulty,
   others,  ///< tasks with an arm, objects that give way, paths and people, with a fault: what docs/limits.md
            ///< states
-  released,  ///< encoders fail in a held press, and up to 1 s later nothing is left to press on
-  starts,    ///< not drawn: encoders that fail 0 to 0.4 s after a base sets out to a wall, `start_count` runs
+  sound_others,  ///< the same tasks without a fault
+  released,      ///< encoders fail in a held press, and up to 1 s later nothing is left to press on
+  starts,  ///< not drawn: encoders that fail 0 to 0.4 s after a base sets out to a wall, `start_count` runs
 };
 inline constexpr int start_count = 88;
 

@@ -1,5 +1,5 @@
-// sweep [--seed N] [--first N] [--runs N] [--threads N] [--healthy | --faulty | --others | --released |
-// --starts]: draws runs and prints what they came to.
+// sweep [--seed N] [--first N] [--runs N] [--threads N] [--healthy | --faulty | --others | --sound-others |
+// --released | --starts]: draws runs and prints what they came to.
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--healthy") == 0) which = Which::healthy;
     if (std::strcmp(argv[i], "--faulty") == 0) which = Which::faulty;
     if (std::strcmp(argv[i], "--others") == 0) which = Which::others;
+    if (std::strcmp(argv[i], "--sound-others") == 0) which = Which::sound_others;
     if (std::strcmp(argv[i], "--released") == 0) which = Which::released;
     if (std::strcmp(argv[i], "--starts") == 0) which = Which::starts;
     if (number != nullptr && i + 1 < argc) *number = std::atoi(argv[++i]);

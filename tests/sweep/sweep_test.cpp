@@ -70,18 +70,34 @@ TEST(Sweep, EncodersThatFailAtAnyMomentKeepTheBounds) {
   if (test::is_long()) print(3, 0, Which::faulty, results, std::cout);
 }
 
-/// Tasks with an arm, objects that give way and the like. docs/limits.md states their bounds, which are
-/// wider. The arm's own speed is bounded by its joints' limits, and no hit is harder than at that speed.
-TEST(Sweep, EncodersThatFailInAnyOtherTaskAreMeasured) {
-  const int runs = test::is_long() ? 300 : 1;
-  const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
-  const auto results = run_all(3, 0, runs, Which::others, threads);
+/// A hand that leads the base makes its speed. The motors' bound does not apply to `guide`.
+bool is_led(const Drawn& drawn) {
+  return drawn.name.starts_with("guide.yaml");
+}
+
+/// Tasks with an arm, objects that give way and the like. In the suite a button that is pressed from the
+/// start, and a board that is wiped: without the arm's own budget they were pressed with 274 N and 1089 N.
+TEST(Sweep, EncodersThatFailInAnyOtherTaskKeepTheBounds) {
+  const auto judge = [](int index) {
+    const Drawn drawn = draw(902, index, Which::others);
+    if (is_led(drawn)) return;
+    const Result result = run(drawn);
+    expect_bounds(result, index);
+    EXPECT_TRUE(result.reason.empty() || result.reason == "frozen") << index << ": " << result.reason;
+  };
+  for (const int index : {25, 38}) judge(index);
+  for (int i = 0; test::is_long() && i < 300; ++i) judge(i);
+}
+
+/// The same tasks with sound encoders, of steps up to 5e-5 rad. In the suite the drawer.
+TEST(Sweep, ASoundArmIsNotFrozen) {
+  const int runs = test::is_long() ? 300 : 40;
   for (int i = 0; i < runs; ++i) {
-    const Result& result = results[static_cast<std::size_t>(i)];
-    EXPECT_LT(result.speed, 1.0) << i << " " << draw(3, i, Which::others).name;
-    EXPECT_FALSE(result.outcome.empty()) << i;
+    const Drawn drawn = draw(901, i, Which::sound_others);
+    if (drawn.encoder_step > 5e-5 || (!test::is_long() && !drawn.name.starts_with("drawer.yaml"))) continue;
+    EXPECT_NE(run(drawn).reason, "frozen") << i << ": " << drawn.name;
+    if (!test::is_long()) break;
   }
-  if (test::is_long()) print(3, 0, Which::others, results, std::cout);
 }
 
 /// In the corner of two walls. Coarse encoders count nothing of a wheel that one of the walls holds. Both

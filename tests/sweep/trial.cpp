@@ -7,6 +7,7 @@
 #include "release.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::sweep {
 
@@ -18,6 +19,8 @@ using namespace runtime;
 constexpr double noise = 1e-10;      // [rad]
 constexpr double watched_for = 3.0;  // [s] after the onset
 constexpr double rests_for = 1.0;    // [s] after the end of a run
+// No motor holds an arm that nobody sees: behind a stop its own brakes do, and close by then.
+constexpr double brakes_within = 0.2;  // [s]
 
 /// Encoders read the true state, in steps, until they fail.
 class Encoders {
@@ -72,6 +75,13 @@ void note_onset(const Drawn& drawn, const Runner& runner, const Truth& truth, Re
   result.force_bound = 1.1 * drawn.force + result.speed_bound * std::sqrt(2.0 * stiffness * mass);
 }
 
+bool has_an_arm(const solver::Model& model) {
+  bool found = false;
+  for (int j = 0; j < model.joint_count(); ++j)
+    found = found || (model.joint(j).actuated && !solver::carries_wheel(model, j + 1));
+  return found;
+}
+
 }  // namespace
 
 Result run(const Drawn& drawn) {
@@ -102,7 +112,10 @@ Result run(const Drawn& drawn) {
     }
     if (status == PlantStatus::ok) encoders.read(sensed.state, result.onset.has_value());
     if (steps.tick_is_due()) tau = runner.step(sensed);
-    if (runner.guard().stopped() && !result.stopped) result.stopped = truth.time;
+    if (runner.guard().stopped() && !result.stopped) {
+      result.stopped = truth.time;
+      if (has_an_arm(program.robot.model)) end = std::min(end, truth.time + brakes_within);
+    }
     if (result.onset) {
       result.speed = std::max(result.speed, planar_speed(truth));
       for (const ObjectTruth& object : truth.objects) result.force = std::max(result.force, object.force);

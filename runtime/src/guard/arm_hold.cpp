@@ -32,4 +32,8 @@ void ArmHold::hold_blind(Eigen::VectorXd& tau) const noexcept {
   for (const HeldJoint& held : joints_) tau(held.joint) = load_of(held).weight;
 }
 
+void ArmHold::copy(const Eigen::VectorXd& from, Eigen::VectorXd& tau) const noexcept {
+  for (const HeldJoint& held : joints_) tau(held.joint) = from(held.joint);
+}
+
 }  // namespace zwang::runtime

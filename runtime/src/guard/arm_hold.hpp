@@ -34,6 +34,9 @@ class ArmHold {
   /// The same when nothing is known of the state now.
   void hold_blind(Eigen::VectorXd& tau) const noexcept;
 
+  /// Takes the torques of its joints from elsewhere.
+  void copy(const Eigen::VectorXd& from, Eigen::VectorXd& tau) const noexcept;
+
   static constexpr double frequency = 20.0;  ///< [rad/s]
 
  private:

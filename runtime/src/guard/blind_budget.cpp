@@ -6,7 +6,8 @@
 
 namespace zwang::runtime {
 
-BlindBudget::BlindBudget(const lang::Robot& robot) : motion_(robot), contact_(motion_) {
+BlindBudget::BlindBudget(const lang::Robot& robot, BlindMotion::Part part)
+    : part_(part), motion_(robot, part), contact_(motion_) {
   const auto n = static_cast<Eigen::Index>(motion_.joints().size());
   q_ = rates_ = mean_ = change_ = now_ = v_ = found_ = lean_ = Eigen::VectorXd::Zero(n);
   y_ = p_ = told_ = Eigen::VectorXd::Zero(motion_.most_freedoms());
@@ -34,12 +35,15 @@ void BlindBudget::begin(const Eigen::VectorXd& q) noexcept {
   has_rates_ = false;
 }
 
-void BlindBudget::tie(double x, double y) noexcept {
+void BlindBudget::tie(double x, double y, bool is_to_move) noexcept {
+  is_to_move_ = is_to_move;
   if (phase_ == Phase::counts) contact_.tie(x, y);
 }
 
 double BlindBudget::budget() const noexcept {
-  return std::isfinite(rim_step_) ? std::max(least_budget, steps * rim_step_) : least_budget;
+  const bool is_arm = part_ == BlindMotion::Part::arm;
+  const double least = is_arm ? least_arm_budget : least_budget;
+  return std::isfinite(rim_step_) ? std::max(least, (is_arm ? arm_steps : steps) * rim_step_) : least;
 }
 
 /// Whether this is a sign of life. Then `now_` has the rates since the last one, and `q_` the new positions.
@@ -77,7 +81,8 @@ void BlindBudget::learn() noexcept {
   }
   if (way_from_the_found() > near * budget()) contact_.leave();
   has_rates_ = true;
-  mean_ += (1.0 - std::exp(-gap_ / rate_low_pass)) * (now_ - mean_);
+  const double low_pass = part_ == BlindMotion::Part::arm ? arm_low_pass : rate_low_pass;
+  mean_ += (1.0 - std::exp(-gap_ / low_pass)) * (now_ - mean_);
   set_out_from(mean_);
 }
 
@@ -117,6 +122,7 @@ Event BlindBudget::event(EventCode code) const noexcept {
 }
 
 std::optional<Event> BlindBudget::look(const Eigen::VectorXd& q, double time) noexcept {
+  if (motion_.is_empty()) return std::nullopt;
   const double dt = time - time_;
   const bool goes_on = has_last_ && dt > 0.0 && dt <= longest;
   time_ = time;
@@ -135,7 +141,7 @@ std::optional<Event> BlindBudget::look(const Eigen::VectorXd& q, double time) no
 }
 
 bool BlindBudget::leans() noexcept {
-  return rim_speed(lean_) > slowest;
+  return !is_excused() && rim_speed(lean_) > slowest;
 }
 
 std::optional<Event> BlindBudget::spend(double dt) noexcept {
@@ -143,12 +149,15 @@ std::optional<Event> BlindBudget::spend(double dt) noexcept {
   motion_.to_motions(v_, y_);
   told_.head(n) = y_.head(n) + dt * motion_.acceleration().head(n);
   contact_.step(motion_, dt, y_);
+  motion_.keep_in_travel(y_);
   told_.head(n) -= y_.head(n);
   motion_.to_rates(told_, now_);
-  if (!contact_.is_tied()) lean_ += now_;  // the latch says that the hook holds
+  lean_ += now_;
   motion_.to_rates(y_, v_);
   const double speed = rim_speed(v_);
-  s_ += speed * dt;
+  // An arm that is held stands although the model's coasts on.
+  const double harmless = part_ == BlindMotion::Part::arm ? slowest : 0.0;
+  s_ += std::max(0.0, speed - harmless) * dt;
   if (s_ > budget()) {
     motion_.to_rates(motion_.acceleration(), now_);
     begin_look(speed, rim_speed(now_));
@@ -156,6 +165,11 @@ std::optional<Event> BlindBudget::spend(double dt) noexcept {
     ask_the_contact(dt);
   }
   return std::nullopt;
+}
+
+void BlindBudget::doubt() noexcept {
+  if (phase_ != Phase::counts || gap_ < ridden_through || motion_.freedoms() == 0) return;
+  begin_look(std::max(rim_speed(v_), comes_off), 0.0);
 }
 
 /// `v_` is to be given back. `acceleration` [m/s^2] at a rim of what pressed.
@@ -178,8 +192,8 @@ void BlindBudget::begin_look(double speed, double acceleration) noexcept {
 ///   most_lean + a integral of 1 - (t / T)^2 dt = most_lean + 2/3 a T.
 void BlindBudget::ask_the_contact(double dt) noexcept {
   const double lean = rim_speed(lean_);
-  if (contact_.is_tied()) asked_for_ = 0.0;  // a held hook answers nothing
-  if (contact_.is_tied() || (!asks() && lean <= most_lean)) return;
+  if (is_excused()) asked_for_ = 0.0;  // it may give less than a count
+  if (is_excused() || (!asks() && lean <= most_lean)) return;
   asked_for_ += dt;
   if (asked_for_ <= slackens_for) return;
   v_ = lean_ * (comes_off / lean);

@@ -24,21 +24,26 @@ namespace zwang::runtime {
 /// look alike. Does not allocate, lock, throw or print after construction.
 class BlindBudget {
  public:
-  explicit BlindBudget(const lang::Robot& robot);
+  /// Of an arm the encoders of its joints count in the place of the wheels', with what they reach in the
+  /// place of a radius. Its presses are not asked: each count of such an encoder is a good part of them.
+  BlindBudget(const lang::Robot& robot, BlindMotion::Part part);
 
   /// Every good sample: the positions as they were measured. `frozen` when nothing answers, with the way [m]
   /// that was not confirmed; `probed` when something does.
   std::optional<Event> look(const Eigen::VectorXd& q, double time) noexcept;
   /// Takes the torques that were sent since that sample, as BlindMotion does.
-  void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
-              const Eigen::VectorXd& sent) noexcept {
-    motion_.expect(model, friction, sent);
+  void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction, const Eigen::VectorXd& sent,
+              const solver::State& state) noexcept {
+    motion_.expect(model, friction, sent, state);
   }
   void expect_brake(const Eigen::VectorXd& sent) noexcept { motion_.expect_brake(sent); }
 
   /// A hook that is held from now on at this point of the base [m], where no budget is being given back.
-  void tie(double x, double y) noexcept;
+  /// `is_to_move`: the task asks for motion, so the hook is asked as any contact is.
+  void tie(double x, double y, bool is_to_move) noexcept;
   void untie() noexcept { contact_.untie(); }
+  /// The other part of the robot is blind. Where this one counts nothing either, it is asked at once.
+  void doubt() noexcept;
   /// Forgets what was seen and told, as after a stop that is reset.
   void begin() noexcept { has_last_ = false; }
 
@@ -54,14 +59,17 @@ class BlindBudget {
   double silent_for() const noexcept { return gap_; }
   /// Rates are not to be believed.
   bool is_blind() const noexcept { return phase_ == Phase::blind; }
-  /// Sets the wheels' torques.
+  /// Sets the torques of its part.
   void give_back(Eigen::VectorXd& tau) noexcept;
 
   static constexpr double least_budget = lang::least_blind_way;  ///< [m]
-  static constexpr double steps = lang::blind_steps;             ///< of the encoder, at the rim
+  static constexpr double least_arm_budget = 2e-3;    ///< [m] of what it reaches: gears give by half of that
+  static constexpr double steps = lang::blind_steps;  ///< of the encoder, at the rim
+  static constexpr double arm_steps = 16.0;           ///< of an arm's: its joints count one after the other
   static constexpr double least_change = 1e-7;    ///< [rad] of a position: an encoder of 25 bits counts 2e-7
   static constexpr double slowest = 0.01;         ///< [m/s] at a rim: rolling on at that does no harm
   static constexpr double rate_low_pass = 0.005;  ///< [s]
+  static constexpr double arm_low_pass = 0.05;    ///< [s] a count of 1e-3 rad in 1 ms is 0.8 m/s at 0.8 m
   static constexpr double look_below = 0.05;      ///< [m/s] at a rim: above it the wait is short
   static constexpr double ridden_through = 0.02;  ///< [s] of a look at such a speed, as of lost samples
   static constexpr double least_look = 0.1e-3;    ///< [m] of the way that is given back
@@ -93,8 +101,13 @@ class BlindBudget {
   std::optional<Event> spend(double dt) noexcept;
   void begin_look(double speed, double acceleration) noexcept;
   void ask_the_contact(double dt) noexcept;
+  /// The latch says that the hook holds, and the task only pulls on it.
+  bool is_excused() const noexcept {
+    return part_ == BlindMotion::Part::arm || (contact_.is_tied() && !is_to_move_);
+  }
   std::optional<Event> wait_for_an_answer(bool is_alive, double dt) noexcept;
 
+  BlindMotion::Part part_;
   BlindMotion motion_;
   FeltContact contact_;
   Phase phase_ = Phase::counts;
@@ -116,6 +129,7 @@ class BlindBudget {
       std::numeric_limits<double>::infinity();  ///< [m] the least that was ever counted, or told
   int fastest_ = 0;                             ///< the joint whose rim is
   bool has_last_ = false, has_rates_ = false;
+  bool is_to_move_ = false;  ///< although a hook holds the base
   // While it is given back.
   double time_constant_ = 0.0;                  ///< [s]
   double looked_for_ = 0.0, waited_for_ = 0.0;  ///< [s]

@@ -14,41 +14,70 @@ double beyond(double torque, double friction) {
   return std::copysign(std::max(0.0, std::abs(torque) - friction), torque);
 }
 
-std::vector<BlindMotion::DrivenJoint> driven_joints(const lang::Robot& robot) {
+/// [m] How far what hangs on the body may be from its joint: along the tree to the frame that is farthest.
+double reach_of(const solver::Model& model, int body) {
+  double most = 0.0;
+  for (const solver::Frame& frame : model.frames()) {
+    if (frame.body == body) most = std::max(most, frame.pose_in_body.position.norm());
+  }
+  for (int b = body + 1; b < model.body_count(); ++b) {
+    const solver::Body& next = model.bodies()[static_cast<std::size_t>(b)];
+    if (next.parent == body) most = std::max(most, next.pose_in_parent.position.norm() + reach_of(model, b));
+  }
+  return most;
+}
+
+double radius_of(const solver::Model& model, int j, BlindMotion::Part part) {
+  constexpr double least_reach = 0.1;  // [m] of a joint at the tip of an arm
+  double radius = 0.0;
+  for (const solver::Wheel& wheel : model.wheels()) {
+    if (wheel.body == j + 1) radius = wheel.radius;
+  }
+  if (part == BlindMotion::Part::wheels) return radius;
+  if (solver::carries_wheel(model, j + 1)) return 0.0;
+  return model.joint(j).type == solver::JointType::prismatic ? 1.0
+                                                             : std::max(least_reach, reach_of(model, j + 1));
+}
+
+std::vector<BlindMotion::DrivenJoint> driven_joints(const lang::Robot& robot, BlindMotion::Part part) {
   const solver::Model& model = robot.model;
+  const bool is_arm = part == BlindMotion::Part::arm;
   std::vector<BlindMotion::DrivenJoint> driven;
-  double wheels = 0.0;
+  double count = 0.0;
   for (int j = 0; j < model.joint_count(); ++j) {
     const solver::Joint& joint = model.joint(j);
     if (!joint.actuated) continue;
     BlindMotion::DrivenJoint one{.joint = j};
     one.turns_on = joint.type == solver::JointType::continuous;
-    for (const solver::Wheel& wheel : model.wheels()) {
-      if (wheel.body == j + 1) one.radius = wheel.radius;
-    }
-    wheels += one.radius > 0.0 ? 1.0 : 0.0;
+    one.radius = radius_of(model, j, part);
+    count += one.radius > 0.0 ? 1.0 : 0.0;
     const auto i = static_cast<std::size_t>(j);
     const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
-    const double least = std::isfinite(joint.max_effort) ? BlindMotion::least_torque * joint.max_effort : 0.0;
+    const double share = is_arm ? BlindMotion::least_torque_of_arm : BlindMotion::least_torque;
+    const double least = std::isfinite(joint.max_effort) ? share * joint.max_effort : 0.0;
     if (one.radius > 0.0 && std::isfinite(joint.max_effort)) one.effort = joint.max_effort;
     one.friction = std::max(coulomb, least);
+    if (is_arm && one.radius > 0.0 && joint.lower < joint.upper)
+      one.lower = joint.lower, one.upper = joint.upper;
     driven.push_back(one);
   }
   for (BlindMotion::DrivenJoint& one : driven)
     one.limit =
-        std::min(model.joint(one.joint).max_effort, robot.stop.force / std::max(1.0, wheels) * one.radius);
+        std::min(model.joint(one.joint).max_effort, robot.stop.force / std::max(1.0, count) * one.radius);
   return driven;
 }
 
 }  // namespace
 
-BlindMotion::BlindMotion(const lang::Robot& robot)
-    : joints_(driven_joints(robot)),
+BlindMotion::BlindMotion(const lang::Robot& robot, Part part)
+    : joints_(driven_joints(robot, part)),
+      part_(part),
       T_factor_(robot.model.joint_count() + 6),
       C_factor_(robot.model.joint_count() + 6),
       wheel_factor_(static_cast<Eigen::Index>(joints_.size())) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (!solver::carries_wheel(robot.model, joints_[i].joint + 1)) arm_.push_back(i);
+    is_empty_ = is_empty_ && joints_[i].radius <= 0.0;
   }
   const auto n = static_cast<Eigen::Index>(joints_.size());
   const Eigen::Index most = robot.model.joint_count() + 6;
@@ -64,8 +93,34 @@ double BlindMotion::norm_of_row(std::size_t joint) const noexcept {
   return T_.row(static_cast<Eigen::Index>(joint)).head(m_).norm();
 }
 
+/// What an arm's joints bear, and on which ends they rest.
+void BlindMotion::find_weights(const solver::State& state) noexcept {
+  if (part_ != Part::arm) return;
+  for (DrivenJoint& driven : joints_) {
+    if (driven.radius <= 0.0) continue;
+    const double q = state.q(driven.joint);
+    driven.weight = state.tau_ff(driven.joint);
+    driven.way_out = q < driven.lower + rest ? 1 : q > driven.upper - rest ? -1 : 0;
+  }
+}
+
+/// Each end pushes as hard as it takes, and never pulls: y + T_j' l, l >= 0.
+void BlindMotion::keep_in_travel(Eigen::VectorXd& y) const noexcept {
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      if (joints_[i].way_out == 0) continue;
+      const auto row = T_.row(static_cast<Eigen::Index>(i)).head(m_);
+      const double rate = row.dot(y.head(m_)), norm = row.squaredNorm();
+      if (rate * joints_[i].way_out < 0.0 && norm > 0.0) y.head(m_) -= rate / norm * row.transpose();
+    }
+  }
+}
+
 void BlindMotion::expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
-                         const Eigen::VectorXd& sent) noexcept {
+                         const Eigen::VectorXd& sent, const solver::State& state) noexcept {
+  if (is_empty_) return;
+  find_weights(state);
   const solver::FreeMotions& motions = model.motions();
   m_ = motions.count;
   const auto n = static_cast<Eigen::Index>(joints_.size());
@@ -88,9 +143,10 @@ void BlindMotion::expect(const DisturbanceObserver& model, const Eigen::VectorXd
   for (Eigen::Index i = 0; i < n; ++i) {
     const DrivenJoint& driven = joints_[static_cast<std::size_t>(i)];
     if (driven.radius <= 0.0) continue;
-    const double torque = beyond(sent(driven.joint), driven.friction);
+    const double told = sent(driven.joint) - driven.weight;
+    const double torque = beyond(told, driven.friction + weight_error * std::abs(driven.weight));
     is_told = is_told || torque != 0.0;
-    const double more = torque - (sent(driven.joint) - friction(driven.joint));
+    const double more = torque - (told - friction(driven.joint));
     (more * torque > 0.0 ? a_ : lost_).head(m_) += more * T_.row(i).head(m_).transpose();
   }
   // Friction takes motion away and makes none: where torques only hold what an arm does to the base, there is
@@ -99,13 +155,15 @@ void BlindMotion::expect(const DisturbanceObserver& model, const Eigen::VectorXd
   const double left = std::max(0.0, all - lost_.head(m_).norm());
   a_.head(m_) *= all > 0.0 ? left / all : 0.0;
   if (!is_told) a_.setZero();
+  keep_in_travel(a_);
 }
 
 void BlindMotion::expect_brake(const Eigen::VectorXd& sent) noexcept {
+  if (is_empty_) return;
   a_.head(m_).setZero();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (joints_[i].radius <= 0.0) continue;
-    const double torque = beyond(sent(joints_[i].joint), joints_[i].friction);
+    const double torque = beyond(sent(joints_[i].joint) - joints_[i].weight, joints_[i].friction);
     a_.head(m_) += torque * T_.row(static_cast<Eigen::Index>(i)).head(m_).transpose();
   }
 }
@@ -133,8 +191,8 @@ void BlindMotion::to_force(const Eigen::VectorXd& w, Eigen::VectorXd& p) const n
 bool BlindMotion::to_stop(const Eigen::VectorXd& y, double time, Eigen::VectorXd& tau) noexcept {
   const auto n = static_cast<Eigen::Index>(joints_.size());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const bool is_wheel = joints_[static_cast<std::size_t>(i)].radius > 0.0;
-    for (int a = 0; a < m_; ++a) T_wheels_turned_(a, i) = is_wheel ? T_(i, a) : 0.0;
+    const bool is_counted = joints_[static_cast<std::size_t>(i)].radius > 0.0;
+    for (int a = 0; a < m_; ++a) T_wheels_turned_(a, i) = is_counted ? T_(i, a) : 0.0;
     torques_(i) = -dot(T_wheels_turned_.col(i).data(), y.data(), m_) / time;
   }
   wheel_factor_.factorise(T_wheels_turned_, m_, n);
@@ -154,7 +212,7 @@ bool BlindMotion::to_stop(const Eigen::VectorXd& y, double time, Eigen::VectorXd
     const DrivenJoint& driven = joints_[static_cast<std::size_t>(i)];
     if (driven.radius <= 0.0) continue;
     const double over = std::clamp(torques_(i), -driven.friction, driven.friction);
-    tau(driven.joint) = is_felt ? torques_(i) + over : 0.0;
+    tau(driven.joint) = driven.weight + (is_felt ? torques_(i) + over : 0.0);
   }
   return is_felt;
 }

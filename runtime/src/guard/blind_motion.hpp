@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "estimate/disturbance.hpp"
 #include "estimate/normal_equations.hpp"
 #include "zwang/lang/robot.hpp"
+#include "zwang/solver/state.hpp"
 
 namespace zwang::runtime {
 
@@ -17,22 +19,31 @@ namespace zwang::runtime {
 /// allocate, lock, throw or print after construction.
 class BlindMotion {
  public:
-  explicit BlindMotion(const lang::Robot& robot);
+  /// Whose encoders tell, and whose motors give back.
+  enum class Part { wheels, arm };
+  BlindMotion(const lang::Robot& robot, Part part);
 
   struct DrivenJoint {
     int joint = 0;
-    double radius = 0.0;    ///< [m] of its wheel; 0: it turns none
+    double radius = 0.0;    ///< [m] of its wheel, or of what it reaches; 0: it is not of this part
     double friction = 0.0;  ///< [N m] a torque of less moves nothing
-    double effort = 0.0;    ///< [N m] of a wheel's motor; 0: it turns none, or its torque has no limit
+    double effort = 0.0;    ///< [N m] of its motor; 0: it is not of this part, or its torque has no limit
     double limit = 0.0;     ///< [N m] with which it may brake: all wheels together press with `stop.force`
     bool turns_on = false;  ///< and on: whole turns do not count
+    double weight = 0.0;    ///< [N m] that an arm's joint bears, of the last `expect`
+    double lower = -std::numeric_limits<double>::infinity();  ///< [rad], [m] ends of an arm's joint
+    double upper = std::numeric_limits<double>::infinity();
+    int way_out = 0;  ///< 1, -1: it rests on its lower or upper end
   };
   const std::vector<DrivenJoint>& joints() const noexcept { return joints_; }
 
+  /// No joint is of this part.
+  bool is_empty() const noexcept { return is_empty_; }
+
   /// Predicts the motion under the torques that were sent. `model` knows them already. `friction` [N m] is
-  /// the friction that `model` subtracted.
-  void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
-              const Eigen::VectorXd& sent) noexcept;
+  /// the friction that `model` subtracted. `state` has the arm's weights and postures.
+  void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction, const Eigen::VectorXd& sent,
+              const solver::State& state) noexcept;
   /// Predicts the motion under a brake's torques when no rows were solved, at the state of the last `expect`.
   void expect_brake(const Eigen::VectorXd& sent) noexcept;
 
@@ -43,6 +54,9 @@ class BlindMotion {
   const Eigen::MatrixXd& base() const noexcept { return B_; }
   double norm_of_row(std::size_t joint) const noexcept;
 
+  /// Takes from yd what would move a joint beyond the end that it rests on.
+  void keep_in_travel(Eigen::VectorXd& y) const noexcept;
+
   /// Rates by driven joint [rad/s] to yd, by least squares, and back.
   void to_motions(const Eigen::VectorXd& rates, Eigen::VectorXd& y) noexcept;
   void to_rates(const Eigen::VectorXd& y, Eigen::VectorXd& rates) const noexcept;
@@ -51,15 +65,21 @@ class BlindMotion {
   void to_force(const Eigen::VectorXd& w, Eigen::VectorXd& p) const noexcept;
   Eigen::Index wrench_size() const noexcept { return C_turned_.cols(); }
   Eigen::Index most_freedoms() const noexcept { return T_.cols(); }
-  /// The wheels' torques that take yd away within `time` [s], or as much of it as their limits let them.
-  /// False, and 0, where no motor would be told more than what moves nothing.
+  /// The torques that take yd away within `time` [s], or as much of it as their limits let them; an arm's
+  /// bear it, too. False, and 0 or the weights, where no motor would be told more than what moves nothing.
   bool to_stop(const Eigen::VectorXd& y, double time, Eigen::VectorXd& tau) noexcept;
 
   /// Of a motor's limit: what gears and bearings take that no file declares.
   static constexpr double least_torque = 2e-3;
+  static constexpr double least_torque_of_arm = 1e-2;  ///< the same of its gears
+  static constexpr double weight_error = 0.05;  ///< of an arm's weight: payloads and masses that no file says
+  static constexpr double rest = 0.02;          ///< [rad], [m] from an end in which a joint rests on it
 
  private:
+  void find_weights(const solver::State& state) noexcept;
   std::vector<DrivenJoint> joints_;
+  Part part_;
+  bool is_empty_ = true;
   std::vector<std::size_t> arm_;  ///< of `joints_`: those that carry no wheel
   int m_ = 0;
   Eigen::MatrixXd T_, B_, C_turned_, T_wheels_turned_;

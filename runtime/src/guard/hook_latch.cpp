@@ -33,7 +33,7 @@ bool HookLatch::is_new(const Latch& latch, const SignalSample& said, double now)
   return said.valid && said.stamp <= now && (!latch.is_known || said.stamp > latch.stamp);
 }
 
-void HookLatch::look(const Sensed& sample, const std::vector<double>& parameters,
+void HookLatch::look(const Sensed& sample, const std::vector<double>& parameters, bool is_to_move,
                      BlindBudget& budget) noexcept {
   const Latch* holding = nullptr;
   for (Latch& latch : latches_) {
@@ -52,7 +52,7 @@ void HookLatch::look(const Sensed& sample, const std::vector<double>& parameters
     if (latch.holds) holding = &latch;
   }
   if (holding != nullptr) {
-    budget.tie(holding->x, holding->y);
+    budget.tie(holding->x, holding->y, is_to_move);
   } else {
     budget.untie();
   }

@@ -12,14 +12,17 @@ namespace zwang::runtime {
 
 /// A hook whose play is below a step of the encoders does not answer a look; neither do dead encoders. A
 /// sensor of its own tells them apart: a signal that `holds` a frame of the base. The signal counts from its
-/// rising edge, which came while encoders were alive, until it is false or stale. Does not allocate, lock,
-/// throw or print after construction.
+/// rising edge, which came while encoders were alive, until it is false or stale. A partner that rolls along
+/// holds nothing, so the signal does not excuse a task that asks for motion. Does not allocate, lock, throw
+/// or print after construction.
 class HookLatch {
  public:
   explicit HookLatch(const lang::Program& program);
 
   /// Every good sample, before the budget looks at it. Its signals are those of the program, in its order.
-  void look(const Sensed& sample, const std::vector<double>& parameters, BlindBudget& budget) noexcept;
+  /// `is_to_move`: the task asks for motion.
+  void look(const Sensed& sample, const std::vector<double>& parameters, bool is_to_move,
+            BlindBudget& budget) noexcept;
   /// At a swap of programs: what the signals of the same names have said so far.
   void take_over(const HookLatch& before) noexcept;
 

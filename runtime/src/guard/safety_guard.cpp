@@ -248,10 +248,25 @@ bool SafetyGuard::is_frozen() const noexcept {
   return frozen_ticks_ > believed_frozen_ticks || frozen_->ticks() > 0;
 }
 
-void SafetyGuard::brake(const Sensed& sensed) noexcept {
+void SafetyGuard::brake(const Sensed& sensed, const Eigen::VectorXd& wanted) noexcept {
+  const bool is_sound = wanted.size() == next_.size() && wanted.allFinite();
   next_.setZero();
-  brake_->brake(sensed.state.qd, next_);
-  arm_->hold(sensed.state, next_);
+  if (!brakes_by_model_) {
+    if (is_frozen()) {
+      brake_->brake_blind(next_);
+    } else {
+      brake_->brake(sensed.state.qd, next_);
+    }
+  } else if (is_sound) {
+    next_ = wanted;
+  }
+  if (holds_by_model_ && is_sound) {
+    arm_->copy(wanted, next_);
+  } else if (is_frozen()) {
+    arm_->hold_blind(next_);
+  } else {
+    arm_->hold(sensed.state, next_);
+  }
 }
 
 void SafetyGuard::brake_blind() noexcept {
@@ -285,14 +300,7 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
   }
   if (!is_frozen()) brake_->remember(sensed.state);
   if (stopped()) {
-    if (brakes_by_model_) {
-      next_ = wanted.size() == next_.size() && wanted.allFinite() ? wanted : 0.0 * next_;
-      arm_->hold(sensed.state, next_);
-    } else if (is_frozen()) {
-      brake_blind();
-    } else {
-      brake(sensed);
-    }
+    brake(sensed, wanted);
     clamp_next();
     return send(tau, GuardStatus::stopped);
   }
@@ -364,7 +372,7 @@ void SafetyGuard::latch(const Event& event) noexcept {
 
 void SafetyGuard::reset() noexcept {
   stop_event_ = {};
-  brakes_by_model_ = false;
+  brakes_by_model_ = holds_by_model_ = false;
   has_time_ = false;
   lost_ticks_ = 0;
   frozen_ticks_ = 0;

@@ -81,17 +81,21 @@ void Runner::Parts::send(bool good, bool solved) noexcept {
     if (guard.stopped()) wanted.setZero();
     blind_budget.give_back(wanted);
   }
+  if (good && blind_arm.takes_over()) blind_arm.give_back(wanted);
   if (good && !guard.stopped() && !drive && blind_budget.asks()) blind_budget.slacken(wanted);
   if (good && !guard.stopped() && !drive) frozen_wheel.ask(wanted);
   guard_status = good ? guard.output(estimated, wanted, tau) : guard.output_blind(tau);
   put_command(good, solved);
   if (solved && !guard.stopped() && !drive) {
     disturbance.expect(solver, solution, sample.state, friction.torque(), tau, sample.time);
-    blind_budget.expect(disturbance, friction.torque(), tau);
+    blind_budget.expect(disturbance, friction.torque(), tau, sample.state);
+    blind_arm.expect(disturbance, friction.torque(), tau, sample.state);
     return;
   }
   if (good) disturbance.pause();
-  if (guard.stopped() && !drive) blind_budget.expect_brake(tau);
+  if (!guard.stopped() || drive) return;
+  blind_budget.expect_brake(tau);
+  blind_arm.expect_brake(tau);
 }
 
 /// A sample that was refused leaves a drive's velocities and bounds as they are.
@@ -137,7 +141,7 @@ void Runner::Parts::keep_stop(bool good_sample) noexcept {
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
   // Where one wheel's encoder is dead, the others do not tell how the base moves.
-  if (good_sample && !is_a_wheel_dead && !blind_budget.takes_over()) {
+  if (good_sample && !is_a_wheel_dead && !blind_budget.takes_over() && !blind_arm.takes_over()) {
     rest.look(estimated.state.base_twist, period);
   } else {
     rest.doubt();

@@ -25,12 +25,21 @@ void Runner::Parts::judge_clock(const Sensed& sensed) noexcept {
 }
 
 void Runner::Parts::confirm() noexcept {
-  if (blind_budget.is_blind() && !guard.stopped()) blind_budget.begin();  // the stop was reset
-  hook_latch.look(sample, scheduler.parameters(), blind_budget);
-  const std::optional<Event> found = blind_budget.look(estimated.state.q, estimated.time);
-  if (found && found->code == EventCode::probed) tell(*found);
-  if (found) stop(found);
-  guard.brake_by_model(blind_budget.takes_over());
+  for (BlindBudget* budget : {&blind_budget, &blind_arm}) {
+    if (budget->is_blind() && !guard.stopped()) budget->begin();  // the stop was reset
+  }
+  hook_latch.look(sample, scheduler.parameters(), scheduler.asks_for_motion(), blind_budget);
+  confirm(blind_budget, blind_arm);
+  confirm(blind_arm, blind_budget);
+  guard.brake_by_model(blind_budget.takes_over(), blind_arm.takes_over());
+}
+
+void Runner::Parts::confirm(BlindBudget& part, BlindBudget& other) noexcept {
+  const std::optional<Event> found = part.look(estimated.state.q, estimated.time);
+  if (!found) return;
+  if (found->code == EventCode::probed) tell(*found);
+  if (found->code == EventCode::frozen) other.doubt();
+  stop(found);
 }
 
 void Runner::Parts::compare(const solver::State& measured) noexcept {
@@ -48,7 +57,7 @@ void Runner::Parts::compare(const solver::State& measured) noexcept {
   scheduler.estimate_wrenches(disturbance.motions(), disturbance.force(), period);
   // A wheel that slides gives the ground less than its motor gives the wheel. Without encoder counts there is
   // no evidence about a motor.
-  if (slip.doubtful() || blind_budget.takes_over()) {
+  if (slip.doubtful() || blind_budget.takes_over() || blind_arm.takes_over()) {
     motors.reset();
     return;
   }

@@ -53,6 +53,7 @@ struct Runner::Parts {
   void judge_clock(const Sensed& sensed) noexcept;
   /// Whether encoders confirm the motors' commands.
   void confirm() noexcept;
+  void confirm(BlindBudget& part, BlindBudget& other) noexcept;
   /// Compares the last command with the motion of motors and wheels. `measured`: the sample before its
   /// projection.
   void compare(const solver::State& measured) noexcept;
@@ -125,6 +126,7 @@ struct Runner::Parts {
   JointRates rates;
   FrozenWheel frozen_wheel;
   BlindBudget blind_budget;
+  BlindBudget blind_arm;
   HookLatch hook_latch;
   MotorWatch motors;
   SlipWatch slip;

@@ -58,6 +58,7 @@ SwapResult Runner::swap_program(Runner& next) noexcept {
   std::swap(now.rates, before.rates);
   std::swap(now.frozen_wheel, before.frozen_wheel);
   std::swap(now.blind_budget, before.blind_budget);
+  std::swap(now.blind_arm, before.blind_arm);
   now.hook_latch.take_over(before.hook_latch);
   std::swap(now.slip, before.slip);
   std::swap(now.friction, before.friction);

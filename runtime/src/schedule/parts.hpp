@@ -49,7 +49,8 @@ struct ActiveAxis {
   bool is_outside = false;    ///< of its position range or its region, by more than what a brake leaves
   int row = -1;               ///< of its driver in the set of the active task; -1: not in force
   bool is_met = false;        ///< that row gets what it asks
-  double built_up = 0.0;      ///< what `build_up` has added to the target: q [m], [m/s], [rad] or [rad/s]
+  double built_up = 0.0;      ///< what `build_up` has added up: q [m], [m/s], [rad] or [rad/s]
+  double added = 0.0;         ///< the part of q that the target has in this tick
   double inverse_mass = 0.0;  ///< of one that yields: of the robot along it, 1/Lambda [1/kg] or [1/kg m^2]
 };
 
@@ -153,15 +154,17 @@ struct Scheduler::Parts final : Facts {
   void list_axis(const ActiveAxis& a) noexcept;
   void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
-  void want_axis(const ActiveAxis& a) noexcept;
+  void want_axis(ActiveAxis& a) noexcept;
   void want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept;
   bool is_left_to_the_end(const ActiveAxis& a) const noexcept;
-  solver::Driver driver_of(const ActiveAxis& a) const noexcept;
+  solver::Driver driver_of(ActiveAxis& a) const noexcept;
+  double added_to(const solver::Driver& driver, const ActiveAxis& a) const noexcept;
   void yield(const ActiveAxis& a, solver::Driver& driver) const noexcept;
   double pushed_with(const ActiveAxis& a) const noexcept;
   bool find_pushes() noexcept;
   solver::Range with_what_pushes(solver::Range acceleration, int base_axis) const noexcept;
   void build_up(ActiveAxis& a) noexcept;
+  bool asks_for_motion_of(const ActiveAxis& a) const noexcept;
   double error_of(const ActiveAxis& a, const solver::Driver& driver,
                   const solver::Coordinate& now) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
@@ -256,6 +259,7 @@ struct Scheduler::Parts final : Facts {
   double energy_at_end = 0.0;  ///< [J] kinetic, when an end was reached
   RestWatch rest;              ///< in an end
   bool has_stood = false;
+  bool asks_for_motion = false;  ///< as of the last solution
   std::optional<Excursion> excursion;
   std::vector<int> entries;          ///< of each task, since the start
   std::vector<double> entered_last;  ///< of each task [s]

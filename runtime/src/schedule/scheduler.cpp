@@ -244,8 +244,14 @@ void Scheduler::estimate_wrenches(const solver::FreeMotions& motions, const Eige
                                   double dt) noexcept {
   if (parts_->state != nullptr) parts_->wrenches.estimate(motions, p, *parts_->state, parts_->frames, dt);
 }
+bool Scheduler::asks_for_motion() const noexcept {
+  return parts_->asks_for_motion;
+}
 void Scheduler::follow_up(const solver::Solver& solver) noexcept {
   Parts& p = *parts_;
+  p.asks_for_motion = p.phase == Phase::running && std::ranges::any_of(p.axes, [&p](const ActiveAxis& a) {
+                        return a.is_outside || p.asks_for_motion_of(a);
+                      });
   for (ActiveAxis& a : p.axes) {
     if (a.says->build_up) p.build_up(a);
     if (!a.says->yield || a.row < 0) continue;

@@ -8,7 +8,7 @@
 // mass along the axis, of the last tick. The virtual robot of a drive that takes velocities feels no F.
 //
 // A driver with `build_up: t` adds q to its target: dq = (v - ds)/t, of a position (p - s)/t. While its row
-// does not get what it asks, or a range holds it, q goes nowhere but back.
+// does not get what it asks, or a range holds it, q goes nowhere but back. Beyond v, `added_to` lets q fade.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -37,7 +37,7 @@ double asked_by(const solver::Driver& driver, double error, const solver::Coordi
 
 /// The driver of the task. If its axes or its value are not known, it is a driver that stands still with the
 /// same force, or one that lets go.
-solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
+solver::Driver Scheduler::Parts::driver_of(ActiveAxis& a) const noexcept {
   const lang::AxisStatements& s = *a.says;
   solver::Driver driver;
   driver.quantity = *s.driver;
@@ -60,8 +60,23 @@ solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
   driver.target = s.target.evaluate(parameters);
   if (s.target.signal >= 0) driver.target = signals.value(s.target.signal);
   if (s.here) driver.target = a.here;
-  driver.target += a.built_up;
+  a.added = s.build_up ? added_to(driver, a) : 0.0;
+  driver.target += a.added;
   return driver;
+}
+
+/// q of a velocity v fades out as the speed ds goes beyond v the way that q pushes, and is gone at v + e:
+///   phi q,   phi = 1 - (ds - v) / e,   e = max(10 % of v, 5 mm/s).
+/// At v + e the driver brakes, whatever is in tow: what was added up to start a load does not overshoot by
+/// more than e.
+double Scheduler::Parts::added_to(const solver::Driver& driver, const ActiveAxis& a) const noexcept {
+  constexpr double share = 0.1, rolls = 5e-3, turns = 0.05;  // [1], [m/s], [rad/s]
+  if (driver.quantity != Quantity::velocity) return a.built_up;
+  const bool is_angle = wanted[a.wanted].constraint.is_angle();
+  const double most = std::max(share * std::abs(driver.target), is_angle ? turns : rolls);
+  const double beyond_target = coordinate_of(*a.group, *a.says, &a).velocity - driver.target;
+  return std::clamp(1.0 - std::copysign(beyond_target, beyond_target * a.built_up) / most, 0.0, 1.0) *
+         a.built_up;
 }
 
 /// F [N] or [N m]; NaN: not known.
@@ -122,6 +137,24 @@ double Scheduler::Parts::error_of(const ActiveAxis& a, const solver::Driver& dri
   return wanted[a.wanted].constraint.wraps() ? std::remainder(error, 2.0 * std::numbers::pi) : error;
 }
 
+/// The speed at which the driver would settle is that of motion: v of a velocity, e / (2 T) of a position
+/// that is off by e. A force or a spring pulls, and asks for none.
+bool Scheduler::Parts::asks_for_motion_of(const ActiveAxis& a) const noexcept {
+  constexpr double rolls = 0.01, turns = 0.1;  // [m/s], [rad/s]
+  const solver::AxisConstraint& constraint = wanted[a.wanted].constraint;
+  if (a.row < 0 || !constraint.driver || constraint.driver->makes_force()) return false;
+  const solver::Driver& driver = *constraint.driver;
+  double speed = driver.target;
+  if (driver.quantity == Quantity::position) {
+    const solver::ConstraintSet& set = blend->sets()[0].constraints;
+    const solver::Row& row = set.rows()[static_cast<std::size_t>(a.row)];
+    const solver::Coordinate& motion = set.coordinates()[static_cast<std::size_t>(row.constraint)];
+    speed = error_of(a, driver, motion) / (2.0 * driver.time_constant);
+  }
+  const bool has_speed = driver.quantity == Quantity::velocity || driver.quantity == Quantity::position;
+  return has_speed && std::abs(speed) > (constraint.is_angle() ? turns : rolls);
+}
+
 void Scheduler::Parts::build_up(ActiveAxis& a) noexcept {
   constexpr double same = 1e-9;
   const auto& constraint = wanted[a.wanted].constraint;
@@ -133,9 +166,11 @@ void Scheduler::Parts::build_up(ActiveAxis& a) noexcept {
   const double whole = error_of(a, driver, motion);
   const double asked = asked_by(driver, whole, motion);
   const bool is_held = std::abs(row.b + motion.acceleration_bias - asked) > same * (1.0 + std::abs(asked));
-  const double error = whole - a.built_up;
+  const double error = whole - a.added;
   if ((is_held || !a.is_met) && error * a.built_up >= 0.0) return;
   a.built_up += error * period / a.says->build_up->evaluate(parameters);
+  // What has faded is too much: it goes as quickly as the driver settles.
+  a.built_up -= (a.built_up - a.added) * std::min(1.0, period / driver.time_constant);
 }
 
 }  // namespace zwang::runtime

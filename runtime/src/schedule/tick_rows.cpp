@@ -116,7 +116,7 @@ void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
 }
 
 /// The present values of the axis's constraint.
-void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
+void Scheduler::Parts::want_axis(ActiveAxis& a) noexcept {
   const AxisStatements& s = *a.says;
   const lang::Group& g = *a.group;
   solver::AxisConstraint& c = wanted[a.wanted].constraint;
@@ -270,7 +270,7 @@ void Scheduler::Parts::want() noexcept {
   renewed.clear();
   if (values_are_due) find_braking();
   const bool is_pushed = find_pushes();
-  for (const ActiveAxis& a : axes) {
+  for (ActiveAxis& a : axes) {
     if (a.fence >= 0) {
       want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
       continue;

@@ -84,9 +84,12 @@ class ZWANG_EXPORT SafetyGuard {
   /// Latches the protective stop, for one of the codes that do. The first reason is kept. The event also
   /// holds the signal that showed it and that signal's value.
   void stop(EventCode reason, int signal = -1, double value = 0.0) noexcept;
-  /// From now on a stop neither trusts nor remembers the wheels' rates: a caller that knows the base by other
-  /// means commands its wheels. False: it does again.
-  void brake_by_model(bool yes) noexcept { brakes_by_model_ = yes; }
+  /// From now on a stop neither trusts nor remembers the rates of the wheels, or of an arm. A caller that
+  /// knows them by other means commands their motors. False: the stop trusts them again.
+  void brake_by_model(bool wheels, bool arm) noexcept {
+    brakes_by_model_ = wheels;
+    holds_by_model_ = arm;
+  }
   bool stopped() const noexcept { return stop_event_.code != EventCode::none; }
   EventCode reason() const noexcept { return stop_event_.code; }  ///< `none` while nothing latched the stop
   /// Releases the stop; the clock starts anew.
@@ -111,7 +114,7 @@ class ZWANG_EXPORT SafetyGuard {
   SampleStatus take_untimely(const Sensed& sensed) noexcept;
   void take_stamp(double stamp) noexcept;
   void latch(const Event& event) noexcept;
-  void brake(const Sensed& sensed) noexcept;
+  void brake(const Sensed& sensed, const Eigen::VectorXd& wanted) noexcept;
   void brake_blind() noexcept;
   void clamp_next() noexcept;
   void take_values(const solver::State& state, double step) noexcept;
@@ -134,6 +137,7 @@ class ZWANG_EXPORT SafetyGuard {
   std::unique_ptr<WheelBrake> brake_;
   int frozen_ticks_ = 0;
   bool brakes_by_model_ = false;
+  bool holds_by_model_ = false;
   double last_time_ = 0.0;    ///< [s] its stamp
   double clock_shift_ = 0.0;  ///< [s]
   bool has_time_ = false;

@@ -117,6 +117,8 @@ class ZWANG_EXPORT Scheduler {
   /// The wrenches on the frames that conditions and drivers ask for. `p` pushes the robot along its free
   /// motions, in the order of `motions`, at the state of the last tick. `dt` [s] since the last one.
   void estimate_wrenches(const solver::FreeMotions& motions, const Eigen::VectorXd& p, double dt) noexcept;
+  /// A driver of the last tick asks for more than 1 cm/s or 0.1 rad/s, or a range leads back what is outside.
+  bool asks_for_motion() const noexcept;
   /// Once a tick, behind the last `observe`: what drivers build up, and how heavy the robot is along those
   /// that yield.
   void follow_up(const solver::Solver& solver) noexcept;
