@@ -37,6 +37,8 @@ class RobotSide {
   /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
   /// `shift` is the same time less that of the sample's own clock.
   void publish(const runtime::Sensed& sensed, double stamp, double shift);
+  /// The next `publish` tells the fix and the signals though they are those of the last one.
+  void tell_again() noexcept;
   /// From now on the odometry tells the pose and the twist that it told last, under new stamps.
   void hold_odometry() noexcept { holds_odometry_ = true; }
   /// The newest command, or zeros when it is older than the receiver's `timeout`; with the outputs as they

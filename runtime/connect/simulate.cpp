@@ -66,15 +66,23 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
   return world.plant.follow(side.command(world.sensed.time + shift));
 }
 
-/// Stands still, and says so, until somebody commands.
-void wait_for_command(RobotSide& side, World& world, double period, Happenings& happenings) {
+/// Stands still, and says so, until somebody commands. A peer may be found at any moment: what stays as it is
+/// goes out with each sample. A clock of its own runs before the world does, as fine as it will, so that the
+/// other side can tick.
+void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, Happenings& happenings) {
   if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
+  const double period = robot.control_period;
+  const double sample_period = robot.drive.takes_velocity ? 1.0 / robot.drive.rate : period;
   const double begin = now();
+  double sample_due = begin;
   for (double due = begin; !cli::is_interrupted() && !happenings.has_begun; due += period) {
     sleep_until(due);
-    // A clock of its own runs before the world does, so that the other side can tick.
     side.tell_time(due - begin);
-    side.publish(world.sensed, side.time(), side.time());
+    if (due > sample_due - 0.5 * period) {
+      side.tell_again();
+      side.publish(world.sensed, side.time(), side.time());
+      sample_due += sample_period;
+    }
     side.command(side.time());
     happenings.has_begun = side.newest().has_come;
   }
@@ -167,10 +175,7 @@ int simulate(const Arguments& arguments) {
   Participant participant(loaded->connection, "zwang_simulated_robot");
   side.join(participant);
   Happenings happenings;
-  const lang::Drive& drive = loaded->program.robot.drive;
-  wait_for_command(side, world,
-                   drive.takes_velocity ? 1.0 / drive.rate : loaded->program.robot.control_period,
-                   happenings);
+  wait_for_command(side, world, loaded->program.robot, happenings);
   runtime::PlantStatus status = runtime::PlantStatus::ok;
   if (!cli::is_interrupted()) {
     status = run(loaded->connection, loaded->program, side, world, arguments.stuck_odometry, happenings);
