@@ -37,6 +37,8 @@ class RobotSide {
   /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
   /// `shift` is the same time less that of the sample's own clock.
   void publish(const runtime::Sensed& sensed, double stamp, double shift);
+  /// Somebody listens to the joints.
+  bool is_heard() const noexcept { return joints_->readers() > 0; }
   /// The next `publish` tells the fix and the signals though they are those of the last one.
   void tell_again() noexcept;
   /// From now on the odometry tells the pose and the twist that it told last, under new stamps.

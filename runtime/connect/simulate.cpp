@@ -89,29 +89,36 @@ void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, H
 }
 
 /// With a clock of its own the world stands while a command is due, so that a busy machine is slow and not
-/// late. Who says nothing for `longest_wait` is waited for no more until he speaks again.
+/// late. A message that was lost may have both sides wait for each other: the world makes one step before the
+/// other side takes the robot for dead. Who says nothing for `longest_wait` is waited for no more until he
+/// speaks again.
 class InStep {
  public:
   InStep(const lang::Connection& connection, double period)
       : is_on_(connection.clock.has_value()),
-        most_(1.5 * std::max(period, 1.0 / connection.command.rate.value_or(1.0 / period))) {}
+        most_(1.5 * std::max(period, 1.0 / connection.command.rate.value_or(1.0 / period))),
+        longest_step_(0.5 * connection.joints.stale_after) {}
 
   void wait(RobotSide& side) {
     if (!is_on_) return;
-    side.command(side.time());
-    if (side.newest().arrival != given_up_at_) given_up_at_ = -1.0;
     const double begin = now();
-    while (given_up_at_ < 0.0 && side.time() - side.newest().arrival > most_ && !cli::is_interrupted()) {
-      if (now() - begin > longest_wait) given_up_at_ = side.newest().arrival;
+    for (side.command(side.time()); !is_served(side, begin); side.command(side.time()))
       sleep_until(now() + look_again);
-      side.command(side.time());
-    }
   }
 
  private:
+  bool is_served(const RobotSide& side, double begin) {
+    const double time = now(), arrival = side.newest().arrival;
+    if (arrival != last_arrival_) last_arrival_ = arrival, silent_since_ = time;
+    return side.time() - arrival <= most_ || time - begin > longest_step_ ||
+           time - silent_since_ > longest_wait || cli::is_interrupted();
+  }
+
   bool is_on_;
-  double most_;                // [s] of the world, between two commands
-  double given_up_at_ = -1.0;  // [s] the command behind which nobody came
+  double most_;                 // [s] of the world, between two commands
+  double longest_step_;         // [s] of this computer
+  double last_arrival_ = -1.0;  // [s] of the world
+  double silent_since_ = 0.0;   // [s] of this computer
 };
 
 runtime::PlantStatus run(const lang::Connection& connection, const lang::Program& program, RobotSide& side,
@@ -136,8 +143,8 @@ runtime::PlantStatus run(const lang::Connection& connection, const lang::Program
       happenings.moved_last = time;
     happenings.silent_since = side.newest().arrival - shift;
     const double silence = time - happenings.silent_since;
-    // Between two goals nobody commands.
-    if (connection.begin == lang::Begin::goals) continue;
+    // Between two runs nobody commands.
+    if (connection.begin != lang::Begin::at_once && side.is_heard()) continue;
     if (silence > longest_silent || (silence > silent_for && time - happenings.moved_last > silent_for))
       break;
   }

@@ -8,10 +8,8 @@ be killed or stopped: the other one brakes. Ends with 1 and says why when anythi
 
 import concurrent.futures
 import json
-import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -50,14 +48,11 @@ def ends_as_inside_one_process(name, number_of_pair, by_cyclone=False):
         more = CLOCK + SIGNALS[name]
         robot = None
         if by_cyclone:
-            if not (Pair.clients / "cyclone_robot").exists():
+            if not Pair.has_cyclone():
                 print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
                 return
             pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, "reach: machine", more, motors_apart=32)
-            # As punctual as both programs: `loop: {priority: 40}`. Without the right to it, a busy machine is too late.
-            punctual = ["chrt", "-f", "40"] if os.geteuid() == 0 and shutil.which("chrt") else []
-            robot = start(punctual + [Pair.clients / "cyclone_robot", str(pair.domain), str(pair.domain + 32)],
-                          stdout=subprocess.PIPE, text=True)
+            robot = pair.start_cyclone_robot()
         else:
             pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, more=more)
         try:

@@ -120,6 +120,10 @@ class ZWANG_EXPORT Runner {
   /// is unknown and a value outside the parameter's range. Does not allocate.
   bool set_parameter(std::string_view name, double value) noexcept;
 
+  /// An event that the host has seen, as `overrun`: the next step has it, for the report and the log. Codes
+  /// that latch the stop are for `SafetyGuard::stop`, and are not taken here.
+  void tell(EventCode code, int signal = -1, double value = 0.0) noexcept;
+
   /// From the next step on the program of `next` runs, from its start task, on the same robot: build it on
   /// another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
   /// events stay; what the torques differ by fades within `handover`; the recorder is let go, as columns may
