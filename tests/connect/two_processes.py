@@ -247,6 +247,55 @@ def the_base_is_told_to_others(program, root, folder):
     expect(0.05 < number(r"the base went (-?[0-9.]+) m ahead", said) < 0.35, "another way", said)
 
 
+def a_stopped_task_begins_anew(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 44, more="start: wait\n")
+    pair.wait_for("waiting for the service /zwang/start")
+    expect(pair.call("/zwang/start").startswith("success"), "start is refused", pair.text("drive"))
+    pair.wait_until_it_drives(0.5)
+    pair.simulate.send_signal(signal.SIGSTOP)
+    time.sleep(STALE_AFTER + SLACK)
+    pair.simulate.send_signal(signal.SIGCONT)
+    pair.wait_for("waiting for the service /zwang/reset")
+    expect("stopped after" in pair.text("drive"), "it is not stopped", pair.text("drive"))
+    expect(pair.call("/zwang/start") == "refused: the protective stop is latched: call /zwang/reset first\n", "it starts")
+    expect(pair.call("/zwang/reset") == "success: /zwang/start begins the task anew\n", "reset is refused")
+    time.sleep(0.5)
+    expect(pair.text("drive").count("the task begins") == 1, "it begins before it is asked to", pair.text("drive"))
+    expect(pair.call("/zwang/start").startswith("success"), "the second start is refused", pair.text("drive"))
+    code, drive, _ = pair.end()
+    expect(code == 0 and "done after" in drive, "not done", drive)
+
+
+def a_late_computer_is_told(program, root, folder):
+    """A drive that stands for ten of its cycles of 2 ms: half of what the guard rides through."""
+    pair = Pair(program, folder, workplace(root, folder), EFFORT, [], 45)
+    pair.wait_until_it_drives(0.4)
+    pair.drive.send_signal(signal.SIGSTOP)
+    time.sleep(0.02)
+    pair.drive.send_signal(signal.SIGCONT)
+    time.sleep(0.3)
+    pair.drive.send_signal(signal.SIGTERM)
+    _, drive, _ = pair.end()
+    expect("overrun time 0.0" in drive, "it does not say that it was late", drive)
+
+
+def a_clock_in_long_steps_is_refused(program, root, folder):
+    """Ticks of 0.4 ms here, and a simulator that tells the time every 10 ms: 20 ticks are 8 ms."""
+    task, slow = workplace(root, folder), folder / "robot_of_the_simulator.yaml"
+    text = (folder / "robot.yaml").read_text(encoding="utf-8")
+    slow.write_text(text.replace("control_period: 2 ms", "control_period: 10 ms"), encoding="utf-8")
+    (folder / "robot.yaml").write_text(text.replace("control_period: 2 ms", "control_period: 0.4 ms"), encoding="utf-8")
+    pair = Pair(program, folder, task, EFFORT, [], 46, more=CLOCK, simulated=["--robot", slow])
+    code = pair.drive.wait(30)
+    pair.simulate.send_signal(signal.SIGTERM)
+    pair.simulate.wait(20)
+    said = "/clock tells the time every 0.01 s, and a robot that ticks every 0.0004 s is stopped after 0.008 s"
+    expect(code == 2 and said in pair.text("drive"), "it is not refused", pair.text("drive"))
+    expect("last command at 0.000 s" in pair.text("simulate") or "moved last at 0.000 s" in pair.text("simulate"), "it moves",
+           pair.text("simulate"))
+
+
 def ten_thousand_calls_are_answered(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 10, more="start: wait\n")
@@ -332,6 +381,7 @@ def main(program, root, clients):
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
              a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered,
              observing_tells_clocks_that_differ, transforms_tell_where_it_is, the_base_is_told_to_others,
+             a_stopped_task_begins_anew, a_late_computer_is_told, a_clock_in_long_steps_is_refused,
              *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
              *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))
     try:
