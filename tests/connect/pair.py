@@ -135,6 +135,9 @@ def routes_of(connection):
     if CLOCK in connection:
         routes.append("state:/clock:rosgraph_msgs/Clock")
     kinds = {"signals:": "state", "outputs:": "output"}
+    sources = {"base": "nav_msgs/Odometry", "fix": "geometry_msgs/PoseWithCovarianceStamped", "wrench": "geometry_msgs/WrenchStamped"}
+    if "fix: {tf:" in connection:
+        routes.append("state:/tf:tf2_msgs/TFMessage")
     section = ""
     for line in connection.splitlines():
         section = section if line.startswith(" ") else line
@@ -142,6 +145,8 @@ def routes_of(connection):
         kind = re.search(r"type: ([\w/]+)", line)
         if section == "command:" and topic:
             routes.append(f"command:{topic[1]}:{kind[1] if kind else 'std_msgs/Float64MultiArray'}")
+        elif section == "state:" and topic and line.split(":")[0].strip() in sources:
+            routes.append(f"state:{topic[1]}:{sources[line.split(':')[0].strip()]}")
         elif section in kinds and topic:
             routes.append(f"{kinds[section]}:{topic[1]}:{kind[1]}")
     return routes

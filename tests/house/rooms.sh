@@ -67,7 +67,7 @@ keep_order() {
 }
 for folder in solver/src lang/src runtime/src runtime; do keep_order "$folder"; done
 
-# libc++ 14, Debian's, has no algorithms of std::ranges: the solver stands on robots of other makers.
+# The solver is built with libc++ 14, too, which has no algorithms of std::ranges (elsewhere.libcxx).
 while IFS= read -r line; do
   offend "$line: the solver has no std::ranges: libc++ 14 lacks it"
 done < <(grep -rnoE --include='*.[hc]pp' 'std::(ranges|views)::[a-z_]+' solver || true)
