@@ -22,10 +22,11 @@ print(run.why or "nothing")
 for limit in sorted(run.limits, key=lambda limit: limit.margin)[:3]:
     print(limit.row, "at worst", limit.worst, "of", limit.limit, limit.unit)
 
-# %% The largest push whose first hit stays below 150 N. A hit grows with the speed: the base comes more slowly here.
+# %% The largest push whose first hit stays below 150 N. A hit is at most F + sqrt(F^2 + K m v^2): at the 8 cm/s of the file
+# no push does it, so the base comes at 4 cm/s here.
 path = zwang.load("wall_align").path
 with open(path, encoding="utf-8") as file:
-    slow = file.read().replace("0.08 m/s", "0.03 m/s")
+    slow = file.read().replace("0.08 m/s", "0.04 m/s")
 pushes = np.arange(10.0, 41.0, 10.0)
 runs = zwang.sweep(path, {"push": pushes}, text=slow, jobs=2)
 gentle = [push for push, r in zip(pushes, runs) if r.outcome == "done" and r.truth["wall.peak_force"] < 150.0]

@@ -172,7 +172,7 @@ void RunTaskServer::tell(const RunTaskFeedback& feedback) {
     if (!is_busy()) return;
     write(goals_.back().id);
   }
-  write(feedback.task), write(feedback.elapsed), write(feedback.progress);
+  write(feedback.task), write(feedback.elapsed), write(feedback.progress), write(feedback.force);
   feedback_(payload);
 }
 

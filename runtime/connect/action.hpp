@@ -42,6 +42,7 @@ struct RunTaskFeedback {
   std::string task;        ///< the active one of the task file
   double elapsed = 0.0;    ///< [s] since the goal began
   double progress = -1.0;  ///< of the active task's timeout, 0 to 1; -1: it has none
+  double force = 0.0;      ///< [N] that presses on the base, in its plane
 };
 
 /// Any thread may call it. The callbacks are called with nothing held that they could wait for.

@@ -6,6 +6,7 @@
 
 #include "clock.hpp"
 #include "message.hpp"
+#include "overrun.hpp"
 
 namespace zwang::connect {
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr auto tell_every = std::chrono::milliseconds(100);
 constexpr int at_least_every = 10;         // of these
-constexpr std::uint64_t many_skipped = 5;  // control cycles from one report to the next, a second at most
 
 const char* word_of(Phase phase) {
   switch (phase) {
@@ -43,6 +43,7 @@ Control::Control(const lang::Connection& connection, const lang::Program& progra
       program_(&program) {
   serve("/start", &Control::start);
   serve("/stop", &Control::stop);
+  if (connection.begin != lang::Begin::at_once) serve("/reset", &Control::reset);
   parameters_.serve_for(program);
   for (const ParameterService& service : parameter_services) {
     participant.serve(
@@ -84,7 +85,6 @@ void Control::serve_goals() {
           (goals_.get()->*handle)(fields, reply);
         });
   }
-  serve("/reset", &Control::reset);
 }
 
 TriggerReply Control::start() {
@@ -95,6 +95,8 @@ TriggerReply Control::start() {
   const Phase phase = phase_;
   if (phase == Phase::running) return {false, "the task runs already"};
   if (phase == Phase::ended) return {false, "the task is over"};
+  if (phase == Phase::latched)
+    return {false, "the protective stop is latched: call " + connection_.name + "/reset first"};
   if (phase == Phase::waiting || !is_alive_()) return {false, "no samples come from the robot"};
   wants_start_ = true;
   return {true, "the task begins"};
@@ -107,7 +109,10 @@ TriggerReply Control::stop() {
 
 TriggerReply Control::reset() {
   Phase phase = Phase::latched;
-  if (phase_.compare_exchange_strong(phase, Phase::ready)) return {true, "goals are taken again"};
+  const std::string next = connection_.begin == lang::Begin::goals
+                               ? "goals are taken again"
+                               : connection_.name + "/start begins the task anew";
+  if (phase_.compare_exchange_strong(phase, Phase::ready)) return {true, next};
   return {phase == Phase::ready, phase == Phase::ready ? "nothing is latched" : "it is not at rest"};
 }
 
@@ -115,7 +120,7 @@ void Control::speak_of(const lang::Program& program) {
   parameters_.serve_for(program);
   const std::lock_guard lock(mutex_);
   program_ = &program;
-  note(-1, 0.0, -1.0);
+  note(-1, 0.0, -1.0, 0.0);
   outcome_.clear();
   reason_.clear();
 }
@@ -157,7 +162,7 @@ DiagnosticArray Control::health(std::uint64_t skipped) const {
   } else if (phase != Phase::ended && !is_alive_()) {
     status.level = phase == Phase::waiting ? DiagnosticStatus::warn : DiagnosticStatus::stale;
     status.message += "; no samples come from the robot";
-  } else if (skipped >= many_skipped) {
+  } else if (skipped >= Overrun::many) {
     status.level = DiagnosticStatus::warn;
     status.message += "; this computer is late: " + std::to_string(skipped) + " control cycles were skipped";
   }
@@ -183,7 +188,7 @@ void Control::tell_changes() {
     const Phase phase = phase_;
     const int task = task_;
     if (goals_ && phase == Phase::running) {
-      RunTaskFeedback feedback{"", elapsed_, progress_};
+      RunTaskFeedback feedback{"", elapsed_, progress_, force_};
       {
         const std::lock_guard lock(mutex_);
         feedback.task = task_name();

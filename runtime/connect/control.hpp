@@ -22,7 +22,7 @@ enum class Phase {
   waiting,  ///< for the robot
   ready,    ///< for a start or a goal
   running,
-  latched,  ///< a goal ended with the protective stop: for `~/reset`
+  latched,  ///< a run ended with the protective stop: for `~/reset`
   ended,
 };
 
@@ -35,20 +35,23 @@ class Control {
   Control(const Control&) = delete;
   Control& operator=(const Control&) = delete;
 
-  bool wants_start() const noexcept { return wants_start_; }
+  /// Somebody has called `~/start` since the last call of this.
+  bool take_start() noexcept { return wants_start_.exchange(false); }
   bool wants_stop() const noexcept { return wants_stop_; }
   /// A client has cancelled the goal that is driven.
   bool wants_cancel() const noexcept { return goals_ != nullptr && goals_->wants_cancel(); }
 
   void enter(Phase phase) noexcept { phase_ = phase; }
+  bool is_latched() const noexcept { return phase_ == Phase::latched; }
   /// The program that `note` speaks of from now on; it lives until the next one is named.
   void speak_of(const lang::Program& program);
   /// Of the control thread: neither waits nor allocates. `task` is an index of the program's tasks, beyond
-  /// them of those that brake; `elapsed` [s] since the run began, `progress` as in RunTaskFeedback.
-  void note(int task, double elapsed, double progress) noexcept {
+  /// them of those that brake; `elapsed` [s] since the run began, `progress` and `force` as in RunTaskFeedback.
+  void note(int task, double elapsed, double progress, double force) noexcept {
     task_.store(task, std::memory_order_relaxed);
     elapsed_.store(elapsed, std::memory_order_relaxed);
     progress_.store(progress, std::memory_order_relaxed);
+    force_.store(force, std::memory_order_relaxed);
   }
   /// Notes the state of the base at `stamp` [s], for `publish` of the connection file. Of the control thread:
   /// neither waits nor allocates.
@@ -88,8 +91,8 @@ class Control {
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<int> task_{-1};
   std::atomic<std::uint64_t> skipped_{0};
-  std::atomic<double> elapsed_{0.0}, progress_{-1.0};  ///< [s], share
-  mutable std::mutex mutex_;                           ///< of those below
+  std::atomic<double> elapsed_{0.0}, progress_{-1.0}, force_{0.0};  ///< [s], share, [N]
+  mutable std::mutex mutex_;                                        ///< of those below
   const lang::Program* program_;
   std::string outcome_, reason_;
   std::thread thread_;

@@ -23,7 +23,7 @@ void pause() {
 
 std::optional<std::string> what_is_missing(const lang::Connection& connection, const Inbox& inbox,
                                            const Outbox& outbox, bool feels_by_effort) {
-  if (!inbox.clock().has_come()) return "no time on " + connection.clock->name;
+  if (!inbox.clock().has_come()) return "no time on " + connection.clock->name + ", or it stands,";
   if (!inbox.has_joints())
     return "no sample of every motor's joint" + std::string(feels_by_effort ? ", with its effort," : "") +
            " on " + connection.joints.topic.name;
@@ -68,12 +68,52 @@ bool wait_for_start(const lang::Connection& connection, Inbox& inbox, Control& c
   if (connection.begin != lang::Begin::service) return true;
   std::printf("the robot is there: waiting for the service %s/start\n", connection.name.c_str());
   std::fflush(stdout);
-  for (; !control.wants_start(); pause()) {
+  for (; !control.take_start(); pause()) {
     inbox.fill(sensed);
     if (cli::is_interrupted() || control.wants_stop()) return false;
   }
   inbox.fill(sensed);
   return true;
+}
+
+bool is_clock_good(const Robot& robot, const lang::Program& program) {
+  const std::string trouble = clock_trouble(robot.connection, program, robot.inbox);
+  if (!trouble.empty()) std::fprintf(stderr, "zwang drive: %s; nothing was sent\n", trouble.c_str());
+  return trouble.empty();
+}
+
+/// Behind the protective stop, until the service `reset` is called. False: somebody ended it before.
+bool wait_for_reset(Robot& robot, runtime::Sensed& sensed) {
+  robot.control.enter(Phase::latched);
+  std::printf("latched: waiting for the service %s/reset\n", robot.connection.name.c_str());
+  std::fflush(stdout);
+  for (; robot.control.is_latched(); pause()) {
+    robot.inbox.fill(sensed);
+    if (cli::is_interrupted() || robot.control.wants_stop()) return false;
+  }
+  return true;
+}
+
+/// With `start: wait` a protective stop ends the run and not the process: `reset` and `start` begin it anew.
+ExitCode drive_task(Robot& robot, const Arguments& arguments, const lang::Program& program,
+                    const lang::Diagnostics& diagnostics) {
+  runtime::Sensed sensed(program);
+  std::optional<std::string> log = arguments.log;
+  for (int number = 2;; ++number) {
+    const GoalOutcome outcome =
+        run_task(robot, program, diagnostics, {log, arguments.log_rate, arguments.rotation}).outcome;
+    if (outcome == GoalOutcome::done) return exit_good;
+    if (outcome != GoalOutcome::stopped || robot.connection.begin != lang::Begin::service) return exit_bad;
+    if (cli::is_interrupted() || robot.control.wants_stop() || !wait_for_reset(robot, sensed))
+      return exit_bad;
+    robot.control.speak_of(program);
+    robot.inbox.read_for(program);
+    robot.outbox.write_for(program);
+    if (!wait_for_start(robot.connection, robot.inbox, robot.control, sensed) ||
+        !is_clock_good(robot, program))
+      return exit_bad;
+    log = numbered(arguments.log, number);
+  }
 }
 
 int drive(const Arguments& arguments) {
@@ -89,7 +129,6 @@ int drive(const Arguments& arguments) {
   inbox.subscribe(participant);
   if (arguments.observe) return observe(connection, loaded->program, inbox, *arguments.observe);
 
-  ExitCode code = exit_good;
   Outbox outbox(connection, loaded->program, participant);
   runtime::Sensed sensed(loaded->program);
   Control control(connection, loaded->program, participant,
@@ -97,20 +136,12 @@ int drive(const Arguments& arguments) {
   const bool is_ready =
       wait_for_robot(connection, loaded->program.robot.drive, inbox, outbox, arguments.wait, sensed) &&
       wait_for_start(connection, inbox, control, sensed);
-  if (!is_ready) return exit_impossible;
-  if (const std::string trouble = clock_trouble(connection, inbox); !trouble.empty()) {
-    std::fprintf(stderr, "zwang drive: %s; nothing was sent\n", trouble.c_str());
-    return exit_impossible;
-  }
   Robot robot{connection, inbox, outbox, control, {}};
+  if (!is_ready || !is_clock_good(robot, loaded->program)) return exit_impossible;
   if (arguments.options.robot) robot.named_robot = arguments.options.robot->string();
-  if (connection.begin == lang::Begin::goals) {
-    drive_goals(robot, arguments, loaded->program);
-  } else {
-    const RunTaskResult result = run_task(robot, loaded->program, diagnostics,
-                                          {arguments.log, arguments.log_rate, arguments.rotation});
-    code = result.outcome == GoalOutcome::done ? exit_good : exit_bad;
-  }
+  const ExitCode code = connection.begin == lang::Begin::goals
+                            ? drive_goals(robot, arguments, loaded->program)
+                            : drive_task(robot, arguments, loaded->program, diagnostics);
   control.enter(Phase::ended);
   if (participant.foreign() > 0)
     std::printf("%llu messages of other machines were not taken\n",

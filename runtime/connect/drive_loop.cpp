@@ -8,6 +8,7 @@
 #include "../cli/interruption.hpp"
 #include "arguments.hpp"
 #include "frozen_base.hpp"
+#include "overrun.hpp"
 #include "zwang/runtime/watchdog.hpp"
 
 namespace zwang::connect {
@@ -77,9 +78,8 @@ class Loop {
       return;
     }
     const double late = std::max(0.0, sensed_.time - due_);
-    note(late);
-    const double missed = std::floor(std::max(0.0, late) / period_);
-    report_.skipped += static_cast<std::uint64_t>(missed);
+    const double missed = std::floor(late / period_);
+    note(late, missed);
     due_ += missed * period_;
   }
 
@@ -118,15 +118,19 @@ class Loop {
       ++report_.without_new;  // the guard counts it as lost
       return;
     }
-    note(now() - inbox_.joints().arrival);
-    if (has_stepped_)
-      report_.skipped += static_cast<std::uint64_t>(
-          std::max(0.0, std::round((inbox_.joints().stamp - last) / period_) - 1.0));
+    const double missed =
+        has_stepped_ ? std::max(0.0, std::round((inbox_.joints().stamp - last) / period_) - 1.0) : 0.0;
+    note(now() - inbox_.joints().arrival, missed);
     sensed_.time = inbox_.joints().stamp;
   }
 
-  void note(double late) {
+  /// A tick that is `late` [s] and follows as many cycles that were missed.
+  void note(double late, double missed) {
     report_.lateness.add(late);
+    const auto skipped = static_cast<std::uint64_t>(missed);
+    report_.skipped += skipped;
+    if (overrun_.add(skipped, now()))
+      runner_.tell(EventCode::overrun, runtime::event_signal::time, std::max(late, missed * period_));
     if (late > too_late) stop(EventCode::watchdog);
   }
 
@@ -165,7 +169,8 @@ class Loop {
     if (const auto change = control_.take_change())
       runner_.set_parameter(program_.parameters[change->parameter].name, change->value);
     runner_.step(sensed_);
-    control_.note(runner_.scheduler().task(), now() - begin_, progress());
+    control_.note(runner_.scheduler().task(), now() - begin_, progress(),
+                  runner_.estimated_force().head<2>().norm());
     control_.note_base(sensed_.time, runner_.estimated_state());
     control_.note_skipped(report_.skipped);
     has_stepped_ = true;
@@ -198,6 +203,7 @@ class Loop {
   DriveReport& report_;
   runtime::Sensed sensed_;
   FrozenBase frozen_base_;
+  Overrun overrun_;
   runtime::Watchdog* watchdog_ = nullptr;
   bool takes_velocity_;
   double period_, send_every_;

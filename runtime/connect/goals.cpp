@@ -60,14 +60,6 @@ std::optional<lang::Program> load_for(const std::filesystem::path& file, const l
   return program;
 }
 
-/// `run.mcap` -> `run_2.mcap`: each goal has a log of its own.
-std::optional<std::string> log_of(const std::optional<std::string>& log, int number) {
-  if (!log) return std::nullopt;
-  const std::filesystem::path path = *log;
-  const std::string name = path.stem().string() + "_" + std::to_string(number) + path.extension().string();
-  return (path.parent_path() / name).string();
-}
-
 class Goals {
  public:
   Goals(const Robot& robot, const Arguments& arguments, const lang::Program& first)
@@ -120,13 +112,13 @@ class Goals {
     if (robot_.control.wants_cancel()) return {GoalOutcome::canceled, "cancelled before it began"};
     runtime::Sensed sensed(*program);
     robot_.inbox.fill(sensed);
-    if (const std::string trouble = clock_trouble(robot_.connection, robot_.inbox); !trouble.empty())
+    if (const std::string trouble = clock_trouble(robot_.connection, *program, robot_.inbox); !trouble.empty())
       return refused(trouble);
     robot_.inbox.read_for(*program);
     robot_.outbox.write_for(*program);
     robot_.control.speak_of(*program);
     return run_task(robot_, *program, diagnostics,
-                    {log_of(arguments_.log, number_), arguments_.log_rate, arguments_.rotation});
+                    {numbered(arguments_.log, number_), arguments_.log_rate, arguments_.rotation});
   }
 
   const Robot& robot_;
@@ -156,11 +148,12 @@ bool check_goals(const lang::Connection& connection, const Arguments& arguments,
   return is_good;
 }
 
-void drive_goals(const Robot& robot, const Arguments& arguments, const lang::Program& first) {
+ExitCode drive_goals(const Robot& robot, const Arguments& arguments, const lang::Program& first) {
   robot.control.enter(Phase::ready);
   std::printf("the robot is there: waiting for goals of the action %s/run\n", robot.connection.name.c_str());
   std::fflush(stdout);
   Goals(robot, arguments, first).drive();
+  return exit_good;
 }
 
 }  // namespace zwang::connect

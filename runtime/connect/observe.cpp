@@ -8,6 +8,7 @@
 
 #include "../cli/interruption.hpp"
 #include "arguments.hpp"
+#include "base_way.hpp"
 #include "task_run.hpp"
 
 namespace zwang::connect {
@@ -62,7 +63,7 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
   std::vector<Way> ways(static_cast<std::size_t>(model.joint_count()));
   runtime::Sensed sensed(program);
   std::optional<JointsSample> before;
-  solver::Pose first_pose;
+  BaseWay base_way;
   for (const double until = now() + seconds; now() < until && !cli::is_interrupted();) {
     if (!inbox.wait_for_joints(now() + 0.1)) continue;
     inbox.fill(sensed);
@@ -75,7 +76,7 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
       if (step != 0.0) ways[j].least_step = std::min(ways[j].least_step, std::abs(step));
       ways[j].by_rates += 0.5 * (sample.qd(i) + before->qd(i)) * dt;
     }
-    if (!before) first_pose = sensed.state.base_pose;
+    base_way.look(inbox.base());
     before = sample;
   }
   print_topics(inbox);
@@ -86,17 +87,14 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
     return exit_bad;
   }
   // `zwang drive` would not begin.
-  if (const std::string trouble = clock_trouble(connection, inbox); !trouble.empty()) {
+  if (const std::string trouble = clock_trouble(connection, program, inbox); !trouble.empty()) {
     std::printf("%s\n", trouble.c_str());
     is_good = false;
   }
   for (std::size_t j = 0; j < ways.size(); ++j)
     is_good = print_joint(model.joint(static_cast<int>(j)).name, ways[j]) && is_good;
-  if (connection.base && inbox.has_base()) {
-    const solver::Vector3 way =
-        first_pose.rotation.transpose() * (sensed.state.base_pose.position - first_pose.position);
-    std::printf("  the base went %.3f m ahead, %.3f m to its left\n", way.x(), way.y());
-  }
+  if (const auto way = base_way.way())
+    std::printf("  the base went %.3f m ahead, %.3f m to its left\n", way->x(), way->y());
   for (const auto& c : inbox.counts()) {
     const bool has_come = c->received > 0 || c->may_be_silent;
     is_good = is_good && has_come && c->bad == 0 && c->others == 0;

@@ -1,7 +1,9 @@
 /// The clock that a robot's stamps go by: this computer's, or one that a topic publishes (`use_sim_time`).
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "clock.hpp"
 
@@ -14,12 +16,16 @@ class RobotClock {
   RobotClock(bool is_told, double longest_silence) : is_told_(is_told), longest_silence_(longest_silence) {}
 
   void tell(double time, double arrival) noexcept {
+    if (arrival_ > 0.0 && time > time_) step_ = std::min(step_.load(), time - time_);
     time_ = time;
     arrival_ = arrival;
   }
 
   bool is_told() const noexcept { return is_told_; }
-  bool has_come() const noexcept { return !is_told_ || arrival_ > 0.0; }
+  /// It goes on: two times have been told.
+  bool has_come() const noexcept { return !is_told_ || step() < std::numeric_limits<double>::infinity(); }
+  /// [s] The shortest from one time to the next that was told: a lost message makes a longer one.
+  double step() const noexcept { return step_; }
   /// [s]
   double time() const noexcept { return is_told_ ? time_.load() : now(); }
   /// [s] The time at which a message came, `arrival` [s] of `now`.
@@ -36,7 +42,7 @@ class RobotClock {
  private:
   const bool is_told_;
   const double longest_silence_;
-  std::atomic<double> time_{0.0}, arrival_{0.0};
+  std::atomic<double> time_{0.0}, arrival_{0.0}, step_{std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace zwang::connect

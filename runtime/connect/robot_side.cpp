@@ -88,6 +88,11 @@ void RobotSide::leave() noexcept {
   signals_.clear();
 }
 
+void RobotSide::tell_again() noexcept {
+  last_fix_ = -1.0;
+  for (SignalWriter& signal : signals_) signal.last_stamp = -1.0;
+}
+
 void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shift) {
   const solver::State& state = sensed.state;
   stamp += stamps_ahead_;

@@ -37,6 +37,10 @@ class RobotSide {
   /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
   /// `shift` is the same time less that of the sample's own clock.
   void publish(const runtime::Sensed& sensed, double stamp, double shift);
+  /// A peer listens to the joints.
+  bool is_heard() const noexcept { return joints_->readers() > 0; }
+  /// The next `publish` sends the fix and the signals even if they have not changed.
+  void tell_again() noexcept;
   /// From now on the odometry repeats its last pose and twist, under new stamps.
   void hold_odometry() noexcept { holds_odometry_ = true; }
   /// The newest command, or zeros when it is older than the receiver's `timeout`; with the outputs as they

@@ -66,44 +66,59 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
   return world.plant.follow(side.command(world.sensed.time + shift));
 }
 
-/// Stands still, and says so, until a command comes.
-void wait_for_command(RobotSide& side, World& world, double period, Happenings& happenings) {
+/// Stands still, and says so, until a command comes. A peer may be found at any moment, so each sample repeats
+/// the values that have not changed. A clock of its own runs before the world does, in steps of any size, so
+/// that the other side can tick.
+void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, Happenings& happenings) {
   if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
+  const double period = robot.control_period;
+  const double sample_period = robot.drive.takes_velocity ? 1.0 / robot.drive.rate : period;
   const double begin = now();
+  double sample_due = begin;
   for (double due = begin; !cli::is_interrupted() && !happenings.has_begun; due += period) {
     sleep_until(due);
-    // A clock of its own runs before the world does, so that the other side can tick.
     side.tell_time(due - begin);
-    side.publish(world.sensed, side.time(), side.time());
+    if (due > sample_due - 0.5 * period) {
+      side.tell_again();
+      side.publish(world.sensed, side.time(), side.time());
+      sample_due += sample_period;
+    }
     side.command(side.time());
     happenings.has_begun = side.newest().has_come;
   }
 }
 
 /// With a clock of its own the world stands while a command is due, so that a busy machine is slow and not
-/// late. A controller that is silent for `longest_wait` is not waited for until its next command.
+/// late. A message that was lost may have both sides wait for each other: the world makes one step before the
+/// other side takes the robot for dead. A controller that is silent for `longest_wait` is not waited for until
+/// its next command.
 class InStep {
  public:
   InStep(const lang::Connection& connection, double period)
       : is_on_(connection.clock.has_value()),
-        most_(1.5 * std::max(period, 1.0 / connection.command.rate.value_or(1.0 / period))) {}
+        most_(1.5 * std::max(period, 1.0 / connection.command.rate.value_or(1.0 / period))),
+        longest_step_(0.5 * connection.joints.stale_after) {}
 
   void wait(RobotSide& side) {
     if (!is_on_) return;
-    side.command(side.time());
-    if (side.newest().arrival != given_up_at_) given_up_at_ = -1.0;
     const double begin = now();
-    while (given_up_at_ < 0.0 && side.time() - side.newest().arrival > most_ && !cli::is_interrupted()) {
-      if (now() - begin > longest_wait) given_up_at_ = side.newest().arrival;
+    for (side.command(side.time()); !is_served(side, begin); side.command(side.time()))
       sleep_until(now() + look_again);
-      side.command(side.time());
-    }
   }
 
  private:
+  bool is_served(const RobotSide& side, double begin) {
+    const double time = now(), arrival = side.newest().arrival;
+    if (arrival != last_arrival_) last_arrival_ = arrival, silent_since_ = time;
+    return side.time() - arrival <= most_ || time - begin > longest_step_ ||
+           time - silent_since_ > longest_wait || cli::is_interrupted();
+  }
+
   bool is_on_;
-  double most_;                // [s] of the world, between two commands
-  double given_up_at_ = -1.0;  // [s] the last command before the silence
+  double most_;                 // [s] of the world, between two commands
+  double longest_step_;         // [s] of this computer
+  double last_arrival_ = -1.0;  // [s] of the world
+  double silent_since_ = 0.0;   // [s] of this computer
 };
 
 runtime::PlantStatus run(const lang::Connection& connection, const lang::Program& program, RobotSide& side,
@@ -128,8 +143,8 @@ runtime::PlantStatus run(const lang::Connection& connection, const lang::Program
       happenings.moved_last = time;
     happenings.silent_since = side.newest().arrival - shift;
     const double silence = time - happenings.silent_since;
-    // Between two goals no commands come.
-    if (connection.begin == lang::Begin::goals) continue;
+    // Between two runs no commands come.
+    if (connection.begin != lang::Begin::at_once && side.is_heard()) continue;
     if (silence > longest_silent || (silence > silent_for && time - happenings.moved_last > silent_for))
       break;
   }
@@ -167,10 +182,7 @@ int simulate(const Arguments& arguments) {
   Participant participant(loaded->connection, "zwang_simulated_robot");
   side.join(participant);
   Happenings happenings;
-  const lang::Drive& drive = loaded->program.robot.drive;
-  wait_for_command(side, world,
-                   drive.takes_velocity ? 1.0 / drive.rate : loaded->program.robot.control_period,
-                   happenings);
+  wait_for_command(side, world, loaded->program.robot, happenings);
   runtime::PlantStatus status = runtime::PlantStatus::ok;
   if (!cli::is_interrupted()) {
     status = run(loaded->connection, loaded->program, side, world, arguments.stuck_odometry, happenings);

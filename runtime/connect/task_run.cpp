@@ -96,16 +96,32 @@ GoalOutcome outcome_of(const runtime::Runner& runner, const Control& control) {
 
 }  // namespace
 
-std::string clock_trouble(const lang::Connection& connection, const Inbox& inbox) {
+std::string clock_trouble(const lang::Connection& connection, const lang::Program& program,
+                          const Inbox& inbox) {
+  char text[160];
+  const double period = program.robot.control_period, longest = runtime::lost_ticks(period) * period;
+  if (connection.clock && inbox.clock().step() > longest + 0.5 * period) {
+    std::snprintf(text, sizeof text,
+                  " tells the time every %.3g s, and a robot that ticks every %.3g s is stopped after %.3g s: "
+                  "have the simulator tell it more often",
+                  inbox.clock().step(), period, longest);
+    return connection.clock->name + text;
+  }
   const double age = inbox.clock().time_at(inbox.joints().arrival) - inbox.joints().stamp;
   if (std::abs(age) <= connection.joints.stale_after) return "";
-  char text[64];
   std::snprintf(text, sizeof text, " is stamped %.3f s before it comes", age);
   return connection.joints.topic.name + text +
          (connection.clock
               ? ", by " + connection.clock->name + ", more than stale_after: one clock must stamp them"
               : ", more than stale_after: set both clocks (chrony), have the driver stamp its "
                 "samples, or name a simulation's clock: `clock: {ros: /clock}`");
+}
+
+std::optional<std::string> numbered(const std::optional<std::string>& log, int number) {
+  if (!log) return std::nullopt;
+  const std::filesystem::path path = *log;
+  const std::string name = path.stem().string() + "_" + std::to_string(number) + path.extension().string();
+  return (path.parent_path() / name).string();
 }
 
 RunTaskResult run_task(const Robot& robot, const lang::Program& program, const lang::Diagnostics& diagnostics,

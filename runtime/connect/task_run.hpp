@@ -23,8 +23,10 @@ struct Robot {
   std::optional<std::string> named_robot;  ///< --robot
 };
 
-/// Stamps of another clock would make every sample old, or of the future. Returns the error, or nothing.
-std::string clock_trouble(const lang::Connection& connection, const Inbox& inbox);
+/// Stamps of another clock would make every sample old, or of the future. The guard takes a clock in long
+/// steps for a pause. Returns the error, or nothing.
+std::string clock_trouble(const lang::Connection& connection, const lang::Program& program,
+                          const Inbox& inbox);
 
 /// The log of a run, where one is wanted.
 struct LogOrder {
@@ -32,6 +34,9 @@ struct LogOrder {
   std::optional<double> rate;       ///< [1/s] most records
   runtime::LogRotation rotation;
 };
+
+/// `run.mcap` -> `run_2.mcap`: each run of a process has a log of its own.
+std::optional<std::string> numbered(const std::optional<std::string>& log, int number);
 
 /// Drives until the run is finished, and prints its report. The samples of the robot come, and the inbox
 /// reads for the program.

@@ -37,18 +37,41 @@ const char* name_of(lang::Severity severity) {
   return "error";
 }
 
+/// A text for a place of a file. Lines and columns count from 1, the end is exclusive.
+struct Edit {
+  std::string path;
+  int line = 0, column = 0, end_line = 0, end_column = 0;
+  std::string text;
+};
+
 /// As Python has it: the span in words of an editor.
 struct Told {
   std::string code, severity, message, help, path;
   int line = 0, column = 0;
   std::optional<std::string> replacement;
+  std::vector<std::string> choices;
+  std::vector<Edit> edits;  ///< they belong together: all of them, or none
 };
+
+/// As `zwang validate --format json` tells them.
+std::vector<Edit> edits_of(const lang::Diagnostics& diagnostics, const lang::Diagnostic& d) {
+  std::vector<Edit> edits;
+  const auto add = [&](const lang::Span& span, const std::optional<std::string>& text) {
+    if (!text || !span.exists()) return;
+    edits.push_back({diagnostics.source(span.source).path, span.begin.line, span.begin.column, span.end.line,
+                     span.end.column, *text});
+  };
+  add(d.span, d.replacement);
+  for (const lang::RelatedSpan& related : d.related) add(related.span, related.replacement);
+  return edits;
+}
 
 std::vector<Told> told(const lang::Diagnostics& diagnostics, bool notes) {
   std::vector<Told> all;
   for (const lang::Diagnostic& d : diagnostics.sorted()) {
     if (d.severity == lang::Severity::note && !notes) continue;
-    Told one{d.code, name_of(d.severity), d.message, d.help, "", 0, 0, d.replacement};
+    Told one{d.code,        name_of(d.severity), d.message, d.help, "", 0, 0,
+             d.replacement, d.choices,           edits_of(diagnostics, d)};
     if (d.span.exists()) {
       one.path = diagnostics.source(d.span.source).path;
       one.line = d.span.begin.line;
@@ -166,6 +189,17 @@ LoadError::LoadError(lang::Diagnostics given)
 
 void bind_language(py::module_& module) {
   using py::arg;
+  py::class_<Edit>(module, "Edit", "A text for a place of a file. The end is exclusive.")
+      .def_readonly("path", &Edit::path)
+      .def_readonly("line", &Edit::line, "from 1")
+      .def_readonly("column", &Edit::column, "from 1, in code points")
+      .def_readonly("end_line", &Edit::end_line)
+      .def_readonly("end_column", &Edit::end_column)
+      .def_readonly("text", &Edit::text)
+      .def("__repr__", [](const Edit& e) {
+        return e.path + ":" + std::to_string(e.line) + ":" + std::to_string(e.column) + ": `" + e.text + "`";
+      });
+
   py::class_<Told>(module, "Diagnostic", "What zwang has to say about a line of a file.")
       .def_readonly("code", &Told::code, "stable, as `E201`; `zwang explain E201` says more")
       .def_readonly("severity", &Told::severity, "`error`, `warning` or `note`")
@@ -175,6 +209,8 @@ void bind_language(py::module_& module) {
       .def_readonly("line", &Told::line, "from 1")
       .def_readonly("column", &Told::column, "from 1, in code points")
       .def_readonly("replacement", &Told::replacement, "what may stand in its place; None: nobody can tell")
+      .def_readonly("choices", &Told::choices, "without a `replacement`: each of them may stand in its place")
+      .def_readonly("edits", &Told::edits, "what mends it, also in other files: all of them together")
       .def("__repr__", [](const Told& d) {
         return d.path + ":" + std::to_string(d.line) + ":" + std::to_string(d.column) + ": " + d.severity +
                " " + d.code + ": " + d.message;

@@ -231,7 +231,7 @@ struct Solver::Workspace {
       pose_problem(end, count);
       exact = problem.solve(settings.max_iterations) && exact;
       take_share(sets[k].share);
-      std::ranges::copy(problem.rows(), row_solutions.begin() + end);
+      std::copy(problem.rows().begin(), problem.rows().end(), row_solutions.begin() + end);
       iterations += problem.iterations();
     }
     if (sets.size() > 1) find_residuals();

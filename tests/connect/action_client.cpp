@@ -55,8 +55,8 @@ void print_topics(test::dds::DataReader& status, test::dds::DataReader& feedback
   while (const auto bytes = test::next_message(feedback, 0.1, info)) {
     CdrReader read(*bytes);
     GoalId goal{};
-    double elapsed = 0.0, progress = 0.0;
-    read(goal), read(task), read(elapsed), read(progress);
+    double elapsed = 0.0, progress = 0.0, force = 0.0;
+    read(goal), read(task), read(elapsed), read(progress), read(force);
     if (read.is_at_end() && goal == id) ++told;
   }
   std::printf("topic says %d, feedback %s\n", last, told > 0 ? "came" : "did not come");

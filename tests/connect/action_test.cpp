@@ -216,19 +216,20 @@ TEST_F(RunTaskAction, KeepsTheLastGoalsOnly) {
 }
 
 TEST_F(RunTaskAction, TellsOfTheGoalThatIsDriven) {
-  server.tell({"press", 1.5, 0.25});
+  server.tell({"press", 1.5, 0.25, 20.5});
   EXPECT_TRUE(feedback.empty());
   send(goal_id(1));
-  server.tell({"press", 1.5, 0.25});
+  server.tell({"press", 1.5, 0.25, 20.5});
   CdrReader read(feedback);
   GoalId id{};
   RunTaskFeedback told;
-  read(id), read(told.task), read(told.elapsed), read(told.progress);
+  read(id), read(told.task), read(told.elapsed), read(told.progress), read(told.force);
   EXPECT_TRUE(read.is_at_end());
   EXPECT_EQ(id, goal_id(1));
   EXPECT_EQ(told.task, "press");
   EXPECT_EQ(told.elapsed, 1.5);
   EXPECT_EQ(told.progress, 0.25);
+  EXPECT_EQ(told.force, 20.5);
 }
 
 TEST_F(RunTaskAction, SurvivesAnyBytes) {

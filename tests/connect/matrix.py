@@ -1,8 +1,9 @@
 """Each shipped task that a wire can carry, over `zwang drive` and `zwang simulate` on the robot of its own file.
 
-    matrix.py PROGRAM ROOT FOLDER_OF_CLIENTS [TASK ..]
+    matrix.py PROGRAM ROOT FOLDER_OF_CLIENTS [fast|cyclone] [TASK ..]
 
-The verdict is that of one process, and each peak force above 20 N is within 10 % of it.
+Once with Fast DDS on both sides, once with a robot by Cyclone DDS, where that is installed. The verdict is that of one
+process, and each peak force above 20 N is within 10 % of it.
 """
 
 import json
@@ -54,14 +55,26 @@ def command_of(program, task, folder):
     return f"command:\n  joints: {{topic: /commands, what: {what}, order: [{', '.join(motors)}], timeout: 300 ms}}\n"
 
 
-def ends_as_alone(program, root, folder, name, number):
+def drive_over(middleware, program, task, folder, number):
+    """What `drive` and `simulate` say of a run."""
+    command, more = command_of(program, task, folder), both.CLOCK + topics_of(task)
+    if middleware == "fast":
+        return both.Pair(program, folder, task, command, [], number, more=more).end(within=600)[1:]
+    pair = both.Pair(program, folder, task, command, [], number, ros2="reach: machine", more=more, motors_apart=32)
+    robot = pair.start_cyclone_robot()
+    _, drive, simulate = pair.end(within=600)
+    robot.terminate()
+    passed = robot.communicate(timeout=20)[0]
+    both.expect(both.number(r"rt/joint_states: (\d+) passed", passed) > 20, "the robot has told nothing", passed, drive)
+    return drive, simulate
+
+
+def ends_as_alone(middleware, program, root, folder, name, number):
     task = root / f"specs/{name}.yaml"
     alone = subprocess.run([program, "run", task, "--quiet", "--format", "json", "--log", folder / "log"], capture_output=True,
                            text=True, check=False)
     report = json.loads(alone.stdout)
-    pair = both.Pair(program, folder, task, command_of(program, task, folder), [], number,
-                              more=both.CLOCK + topics_of(task))
-    _, drive, simulate = pair.end(within=600)
+    drive, simulate = drive_over(middleware, program, task, folder, number)
     both.expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
     peaks = []
     for thing, truth in report["truth"].items():
@@ -69,8 +82,7 @@ def ends_as_alone(program, root, folder, name, number):
         if thing == "base" or alone_peak < LEAST_PEAK:
             continue
         peak = both.number(re.escape(thing) + r": force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
-        both.expect(abs(peak - alone_peak) < 0.1 * alone_peak, f"{thing}: peak {peak} N, alone {alone_peak} N", drive,
-                             simulate)
+        both.expect(abs(peak - alone_peak) < 0.1 * alone_peak, f"{thing}: peak {peak} N, alone {alone_peak} N", drive, simulate)
         peaks.append(f"{thing} {peak:.0f} N, alone {alone_peak:.0f} N")
     return f"{report['outcome']}; " + ", ".join(peaks)
 
@@ -79,15 +91,20 @@ def main(program, root, clients, *names):
     both.Pair.clients = pathlib.Path(clients)
     root = pathlib.Path(root)
     all_names = sorted(p.stem for p in (root / "specs").glob("*.yaml") if p.stem not in WITHOUT_END)
+    middlewares = [name for name in names if name in ("fast", "cyclone")]
+    names = [name for name in names if name not in middlewares]
+    if not middlewares:
+        middlewares = ["fast", "cyclone"] if both.Pair.has_cyclone() else ["fast"]
     is_good = True
-    for number, name in enumerate(names or all_names):
+    for number, (middleware, name) in enumerate((m, n) for m in middlewares for n in names or all_names):
         begin = time.monotonic()
         with tempfile.TemporaryDirectory() as folder:
             try:
-                print(f"ok      {name}: {ends_as_alone(program, root, pathlib.Path(folder), name, 50 + number)}", end="")
+                said = ends_as_alone(middleware, program, root, pathlib.Path(folder), name, 50 + number)
+                print(f"ok      {middleware} {name}: {said}", end="")
             except (AssertionError, subprocess.TimeoutExpired) as error:
                 is_good = False
-                print(f"FAILED  {name}: {error}", end="")
+                print(f"FAILED  {middleware} {name}: {error}", end="")
             print(f" ({time.monotonic() - begin:.0f} s)", flush=True)
         both.kill_what_runs()
     return 0 if is_good else 1

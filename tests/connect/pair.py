@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -69,14 +70,16 @@ class Pair:
     def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more="", base="",
                  simulated=(), motors_apart=0, stale_after="100 ms"):
         self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
+        self.motors_apart = motors_apart
         self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
         for side in ("simulate", "drive"):
             connection = folder / f"connection_{number}{'_of_motors' if motors_apart and side == 'simulate' else ''}.yaml"
             # `motors_apart`: the simulation is in a domain of its own, that many further.
             in_domain = domain + (motors_apart if side == "simulate" else 0)
-            connection.write_text(
+            self.connection = (
                 f"zwang_connection: 1\nros2: {{domain: {in_domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
                 f"state:\n  joints: {{topic: /joint_states, stale_after: {stale_after}}}\n{base}" + command)
+            connection.write_text(self.connection, encoding="utf-8")
             arguments = [task, "--over", connection] + options
             with open(self.files[side], "w", encoding="utf-8") as out:
                 # `--stuck-odometry` is for tests: the program behind `zwang simulate` takes it, `zwang` does not.
@@ -89,6 +92,17 @@ class Pair:
         code = self.drive.wait(within)
         self.simulate.wait(20)
         return code, self.text("drive"), self.text("simulate")
+
+    @classmethod
+    def has_cyclone(cls):
+        return (cls.clients / "cyclone_robot").exists()
+
+    def start_cyclone_robot(self):
+        """All that `drive` hears comes from Cyclone DDS then, and all that it says goes there: for `motors_apart`."""
+        # As punctual as both programs: `loop: {priority: 40}`. Without the right to it, a busy machine is too late.
+        punctual = ["chrt", "-f", "40"] if os.geteuid() == 0 and shutil.which("chrt") else []
+        return start(punctual + [self.clients / "cyclone_robot", str(self.domain), str(self.domain + self.motors_apart)] +
+                     routes_of(self.connection), stdout=subprocess.PIPE, text=True)
 
     def text(self, side):
         return self.files[side].read_text(encoding="utf-8")
@@ -113,6 +127,29 @@ class Pair:
     def client(self, name, *words):
         return subprocess.run([self.clients / name, str(self.domain), *words], capture_output=True, text=True, timeout=120,
                               check=False).stdout
+
+
+def routes_of(connection):
+    """What `cyclone_robot` passes on between both sides of a connection."""
+    routes = ["state:/joint_states:sensor_msgs/JointState"]
+    if CLOCK in connection:
+        routes.append("state:/clock:rosgraph_msgs/Clock")
+    kinds = {"signals:": "state", "outputs:": "output"}
+    sources = {"base": "nav_msgs/Odometry", "fix": "geometry_msgs/PoseWithCovarianceStamped", "wrench": "geometry_msgs/WrenchStamped"}
+    if "fix: {tf:" in connection:
+        routes.append("state:/tf:tf2_msgs/TFMessage")
+    section = ""
+    for line in connection.splitlines():
+        section = section if line.startswith(" ") else line
+        topic = re.search(r"topic: ([\w/]+)", line)
+        kind = re.search(r"type: ([\w/]+)", line)
+        if section == "command:" and topic:
+            routes.append(f"command:{topic[1]}:{kind[1] if kind else 'std_msgs/Float64MultiArray'}")
+        elif section == "state:" and topic and line.split(":")[0].strip() in sources:
+            routes.append(f"state:{topic[1]}:{sources[line.split(':')[0].strip()]}")
+        elif section in kinds and topic:
+            routes.append(f"{kinds[section]}:{topic[1]}:{kind[1]}")
+    return routes
 
 
 def number(pattern, text):

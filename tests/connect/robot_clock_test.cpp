@@ -23,11 +23,20 @@ TEST(RobotClock, ThatIsToldStandsBetweenTwoMessages) {
   RobotClock clock(true, patience);
   EXPECT_FALSE(clock.has_come());
   clock.tell(7.0, 1000.0);
-  EXPECT_TRUE(clock.has_come());
+  EXPECT_FALSE(clock.has_come()) << "a simulation that is paused tells one time again and again";
+  clock.tell(7.0, 1000.01);
+  EXPECT_FALSE(clock.has_come());
   EXPECT_EQ(clock.time(), 7.0);
   EXPECT_EQ(clock.time_at(1000.05), 7.0);
   clock.tell(7.01, 1000.1);
+  EXPECT_TRUE(clock.has_come());
   EXPECT_EQ(clock.time(), 7.01);
+}
+
+TEST(RobotClock, StepsAsTheShortestStepThatWasTold) {
+  RobotClock clock(true, patience);
+  for (const double time : {7.0, 7.1, 7.3, 7.4, 0.0, 0.1}) clock.tell(time, 1000.0 + time);
+  EXPECT_NEAR(clock.step(), 0.1, 1e-12) << "a message was lost, and the simulation began anew";
 }
 
 // A simulation at a tenth of real time: its samples are fresh, although they come seldom.

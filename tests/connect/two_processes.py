@@ -8,10 +8,8 @@ be killed or stopped: the other one brakes. Ends with 1 and says why when anythi
 
 import concurrent.futures
 import json
-import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -50,14 +48,11 @@ def ends_as_inside_one_process(name, number_of_pair, by_cyclone=False):
         more = CLOCK + SIGNALS[name]
         robot = None
         if by_cyclone:
-            if not (Pair.clients / "cyclone_robot").exists():
+            if not Pair.has_cyclone():
                 print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
                 return
             pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, "reach: machine", more, motors_apart=32)
-            # As punctual as both programs: `loop: {priority: 40}`. Without the right to it, a busy machine is too late.
-            punctual = ["chrt", "-f", "40"] if os.geteuid() == 0 and shutil.which("chrt") else []
-            robot = start(punctual + [Pair.clients / "cyclone_robot", str(pair.domain), str(pair.domain + 32)],
-                          stdout=subprocess.PIPE, text=True)
+            robot = pair.start_cyclone_robot()
         else:
             pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, more=more)
         try:
@@ -252,6 +247,55 @@ def the_base_is_told_to_others(program, root, folder):
     expect(0.05 < number(r"the base went (-?[0-9.]+) m ahead", said) < 0.35, "another way", said)
 
 
+def a_stopped_task_begins_anew(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 44, more="start: wait\n")
+    pair.wait_for("waiting for the service /zwang/start")
+    expect(pair.call("/zwang/start").startswith("success"), "start is refused", pair.text("drive"))
+    pair.wait_until_it_drives(0.5)
+    pair.simulate.send_signal(signal.SIGSTOP)
+    time.sleep(STALE_AFTER + SLACK)
+    pair.simulate.send_signal(signal.SIGCONT)
+    pair.wait_for("waiting for the service /zwang/reset")
+    expect("stopped after" in pair.text("drive"), "it is not stopped", pair.text("drive"))
+    expect(pair.call("/zwang/start") == "refused: the protective stop is latched: call /zwang/reset first\n", "it starts")
+    expect(pair.call("/zwang/reset") == "success: /zwang/start begins the task anew\n", "reset is refused")
+    time.sleep(0.5)
+    expect(pair.text("drive").count("the task begins") == 1, "it begins before it is asked to", pair.text("drive"))
+    expect(pair.call("/zwang/start").startswith("success"), "the second start is refused", pair.text("drive"))
+    code, drive, _ = pair.end()
+    expect(code == 0 and "done after" in drive, "not done", drive)
+
+
+def a_late_computer_is_told(program, root, folder):
+    """A drive that stands for ten of its cycles of 2 ms: half of what the guard rides through."""
+    pair = Pair(program, folder, workplace(root, folder), EFFORT, [], 45)
+    pair.wait_until_it_drives(0.4)
+    pair.drive.send_signal(signal.SIGSTOP)
+    time.sleep(0.02)
+    pair.drive.send_signal(signal.SIGCONT)
+    time.sleep(0.3)
+    pair.drive.send_signal(signal.SIGTERM)
+    _, drive, _ = pair.end()
+    expect("overrun time 0.0" in drive, "it does not say that it was late", drive)
+
+
+def a_clock_in_long_steps_is_refused(program, root, folder):
+    """Ticks of 0.4 ms here, and a simulator that tells the time every 10 ms: 20 ticks are 8 ms."""
+    task, slow = workplace(root, folder), folder / "robot_of_the_simulator.yaml"
+    text = (folder / "robot.yaml").read_text(encoding="utf-8")
+    slow.write_text(text.replace("control_period: 2 ms", "control_period: 10 ms"), encoding="utf-8")
+    (folder / "robot.yaml").write_text(text.replace("control_period: 2 ms", "control_period: 0.4 ms"), encoding="utf-8")
+    pair = Pair(program, folder, task, EFFORT, [], 46, more=CLOCK, simulated=["--robot", slow])
+    code = pair.drive.wait(30)
+    pair.simulate.send_signal(signal.SIGTERM)
+    pair.simulate.wait(20)
+    said = "/clock tells the time every 0.01 s, and a robot that ticks every 0.0004 s is stopped after 0.008 s"
+    expect(code == 2 and said in pair.text("drive"), "it is not refused", pair.text("drive"))
+    expect("last command at 0.000 s" in pair.text("simulate") or "moved last at 0.000 s" in pair.text("simulate"), "it moves",
+           pair.text("simulate"))
+
+
 def ten_thousand_calls_are_answered(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 10, more="start: wait\n")
@@ -277,10 +321,53 @@ def cyclone_is_answered(program, root, folder):
     said = pair.client("cyclone_client", "/zwang/start", "0")
     expect('state {"state":"ready"' in said, "the state does not reach a late subscriber", said)
     expect("health 0 zwang: task: ready (mecanum_base, 2 values)" in said, "the diagnostics do not come", said)
+    said = pair.client("cyclone_client", "/zwang/reset", "1000")
+    expect("1000 of 1000 answered: nothing is latched" in said, "a call is not answered", said)
     said = pair.client("cyclone_client", "/zwang/start", "50")
     code, drive, _ = pair.end()
     expect("50 of 50 answered: the task" in said, "a call is not answered", said)
     expect(code == 0 and "done after" in drive, "the first call has not started it", drive)
+
+
+def ends_over_cyclone(program, folder, task, command, number_of_pair, **parts):
+    """A run of the twist base over a robot by Cyclone DDS, done: what `drive`, `simulate` and the robot say."""
+    scene = folder / "measured.yaml"
+    scene.write_text("zwang_scene: 1\nstart: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\nstate: {fix: {rate: 20 Hz}}\n"
+                     "objects: {wall: {wall: {length: 4 m}, at: [2 m, 0 m], fixed: true}}\n"
+                     "signals: {ahead: {distance_to: wall}}\n", encoding="utf-8")
+    options = ["--robot", pathlib.Path(task).parent / "robot.yaml", "--scene", scene]
+    pair = Pair(program, folder, task, command, options, number_of_pair, "reach: machine", motors_apart=32, **parts)
+    robot = pair.start_cyclone_robot()
+    code, drive, simulate = pair.end(within=120)
+    robot.terminate()
+    passed = robot.communicate(timeout=20)[0]
+    expect(code == 0 and "done after" in drive, "not done", drive, simulate, passed)
+    return drive, simulate, passed
+
+
+def messages_pass_cyclone(program, root, folder):
+    """Those that no use case has: an odometry, a fix of both kinds, a scan, a twist without a stamp."""
+    if not Pair.has_cyclone():
+        print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
+        return
+    (folder / "robot.yaml").write_text((root / "specs/robots/blind/mecanum_twist.yaml").read_text(encoding="utf-8").replace(
+        "based_on: ../mecanum_base.yaml", "based_on: mecanum_base.yaml"), encoding="utf-8")
+    for part in ("mecanum_base.yaml", "mecanum_base.urdf"):
+        (folder / part).write_text((root / "specs/robots" / part).read_text(encoding="utf-8"), encoding="utf-8")
+    task = folder / "roll.yaml"
+    task.write_text(ROLL.replace("value: 0.02 m/s", "value: 0.2 m/s").replace("tasks:\n", "signals: {ahead: {type: number, unit: m, stale_after: 200 ms}}\ntasks:\n")
+                    .replace("elapsed > $until", "ahead < 1.2 m"), encoding="utf-8")
+    twist = TWIST.replace("TwistStamped", "Twist")
+    scan = "signals:\n  ahead: {topic: /scan, type: sensor_msgs/LaserScan, nearest: [-10 deg, 10 deg]}\n"
+    # The base stands 2 m before the wall and ends 1.2 m before it, and the brake's 0.2 m/s.
+    for number_of_pair, fix in ((47, "fix: {topic: /amcl_pose}"), (48, "fix: {tf: {parent: map, child: base_link}}")):
+        drive, simulate, passed = ends_over_cyclone(program, folder, task, twist, number_of_pair, more=CLOCK + scan,
+                                                    base=f"  base: {{topic: /odom}}\n  {fix}\n")
+        expect(0.75 < number(r"base at (-?[0-9.]+) m", simulate) < 0.9, "another way", simulate)
+        for topic in ("/odom", "/scan", "/cmd_vel", "/amcl_pose" if "topic" in fix else "/tf"):
+            expect(number(rf"rt{topic}: (\d+) passed", passed) > 10, f"{topic} has not passed", passed)
+            if topic != "/cmd_vel":
+                expect(number(re.escape(topic) + r" \([^)]*\): \d+ received, (\d+) bad", drive) == 0, "it is bad", drive)
 
 
 def observing_tells_clocks_that_differ(program, root, folder):
@@ -337,6 +424,7 @@ def main(program, root, clients):
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
              a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered,
              observing_tells_clocks_that_differ, transforms_tell_where_it_is, the_base_is_told_to_others,
+             a_stopped_task_begins_anew, a_late_computer_is_told, a_clock_in_long_steps_is_refused, messages_pass_cyclone,
              *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
              *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))
     try:

@@ -34,3 +34,7 @@ def own_loop(program: zwang.Program) -> str:
 def peaks() -> list[float | None]:
     runs = zwang.sweep("wall_align.yaml", {"push": ["10 N", "20 N"], "start_yaw": [0.0, 0.2]}, jobs=2)
     return [run.truth["wall.peak_force"] for run in runs]
+
+
+def texts_for(path: str) -> list[tuple[int, int, str]]:
+    return [(edit.line, edit.end_column, edit.text) for d in zwang.validate(path) for edit in d.edits]

@@ -124,6 +124,23 @@ TEST(Clock, ThatDriftsIsTold) {
   }
 }
 
+/// What the host has seen is an event of the next step, and no stop.
+TEST(Clock, OfAHostThatWasLateIsTold) {
+  Loop loop(shipped_program("laws/straight_on.yaml", "mecanum"));
+  loop.step(as_it_is);
+  loop.runner.tell(EventCode::overrun, event_signal::time, 0.012);
+  loop.runner.tell(EventCode::watchdog);  // that is for SafetyGuard::stop
+  EXPECT_EQ(loop.runner.event_count(), 0U);
+  loop.step(as_it_is);
+  loop.step(as_it_is);
+  ASSERT_EQ(loop.runner.event_count(), 1U);
+  EXPECT_EQ(loop.runner.events()[0].code, EventCode::overrun);
+  EXPECT_NEAR(loop.runner.events()[0].time, period, 1e-9);
+  EXPECT_EQ(loop.runner.events()[0].value, 0.012);
+  EXPECT_EQ(loop.runner.event_signal(loop.runner.events()[0]), "time");
+  EXPECT_EQ(loop.runner.state(), RunState::running);
+}
+
 /// Jitter by less than half a period, steps of 4 ms, and samples that stay away are no other rate.
 TEST(Clock, ThatIsUnevenIsOfNoOtherRate) {
   ClockRate jittering(period), coarse(period), losing(period), early(period);

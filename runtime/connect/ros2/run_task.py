@@ -20,7 +20,7 @@ def main():
     client.wait_for_server()
     goal = RunTask.Goal(task=sys.argv[1], params=sys.argv[2:])
     sent = client.send_goal_async(
-        goal, feedback_callback=lambda m: print(f"{m.feedback.elapsed:6.1f} s  {m.feedback.task}"))
+        goal, feedback_callback=lambda m: print(f"{m.feedback.elapsed:6.1f} s  {m.feedback.force:6.1f} N  {m.feedback.task}"))
     rclpy.spin_until_future_complete(node, sent)
     if not sent.result().accepted:
         sys.exit("not accepted: another goal runs, no samples come from the robot, or /zwang/reset is due")

@@ -13,10 +13,10 @@ import itertools
 import pathlib
 
 from . import _zwang
-from ._zwang import (Command, Diagnostic, Error, Limit, Log, Program, Result, Rows, Runner, ScenePlant, Sensed, Solution,
+from ._zwang import (Command, Diagnostic, Edit, Error, Limit, Log, Program, Result, Rows, Runner, ScenePlant, Sensed, Solution,
                      Solver, read_log, simulate)
 
-__all__ = ["Command", "Diagnostic", "Error", "Limit", "Log", "Plant", "Program", "Result", "Rows", "Runner",
+__all__ = ["Command", "Diagnostic", "Edit", "Error", "Limit", "Log", "Plant", "Program", "Result", "Rows", "Runner",
            "ScenePlant", "Sensed", "Solution", "Solver", "load", "read_log", "run", "sweep", "validate"]
 
 

@@ -64,6 +64,8 @@ constexpr std::array event_words{
                "no encoder counted where the motors should have moved the base; told to move back, it did"},
     EventWords{EventCode::outside, "outside", "a frame stands outside of its range or region"},
     EventWords{EventCode::not_at_rest, "not_at_rest", "the stop's time is over, and the base may still move"},
+    EventWords{EventCode::overrun, "overrun",
+               "this computer is late: five control cycles were skipped within a second"},
 };
 
 constexpr bool is_in_order() {

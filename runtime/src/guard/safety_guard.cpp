@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "estimate/rotation.hpp"
+#include "estimate/ticks.hpp"
 #include "guard/arm_hold.hpp"
 #include "guard/frozen_state.hpp"
 #include "guard/joint_limits.hpp"
@@ -70,6 +71,12 @@ const char* to_string(GuardStatus status) noexcept {
       return "stopped";
   }
   return "?";
+}
+
+int lost_ticks(double period) noexcept {
+  constexpr int most = 20, least = 5;
+  constexpr double longest = 0.05;  // [s]
+  return std::clamp(ticks_of(longest, period), least, most);
 }
 
 SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings)

@@ -75,7 +75,7 @@ void LogLayout::add_first(const StatementTable& statements, const Scheduler& sch
                            "missed.held_back_by.4"}) {  // the strongest first
     add(name, "", rows);
   }
-  add("event", "", words_up_to(EventCode::not_at_rest));
+  add("event", "", words_up_to(last_event_code));
   add("event.signal", "", event_signals);
   add("event.value", "");
   add("estimated.force.x", "N");

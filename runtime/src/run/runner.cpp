@@ -20,6 +20,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   const bool is_timely = status == SampleStatus::good;
   const bool good = is_timely || status == SampleStatus::untimely;
   p.tell_refusal(status);
+  p.tell_of_host();
   if (status != SampleStatus::not_finite) p.judge_clock(sensed);
 
   if (good) p.estimate(sensed);

@@ -118,6 +118,12 @@ void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
   told_refusal = refusal;
 }
 
+void Runner::Parts::tell_of_host() noexcept {
+  if (told_by_host.code == EventCode::none) return;
+  tell({told_by_host.code, guard.time(), told_by_host.signal, told_by_host.value});
+  told_by_host = {};
+}
+
 void Runner::Parts::tell_excursion() noexcept {
   const std::optional<Excursion>& excursion = scheduler.excursion();
   if (!excursion) return;

@@ -29,13 +29,6 @@ double period_of(const lang::Robot& robot, const RunnerSettings& settings) {
   return period;
 }
 
-/// That are ridden through: 20, and 50 ms of them, but 4 of any.
-int lost_ticks(double period) {
-  constexpr int most = 20, least = 5;
-  constexpr double longest = 0.05;  // [s]
-  return std::clamp(ticks_of(longest, period), least, most);
-}
-
 }  // namespace
 
 Runner::Parts::Parts(const lang::Program& program, const RunnerSettings& settings)

@@ -64,6 +64,7 @@ struct Runner::Parts {
   void stop(const std::optional<Event>& found) noexcept;
   void tell(const Event& event) noexcept;
   void tell_refusal(SampleStatus status) noexcept;
+  void tell_of_host() noexcept;
   void tell_excursion() noexcept;
   void tell_doubt(double time) noexcept;
 
@@ -141,6 +142,7 @@ struct Runner::Parts {
   std::uint64_t event_count = 0;
   bool stop_is_told = false;
   EventCode told_refusal = EventCode::none;  ///< of the last sample; `none` when it was taken
+  Event told_by_host;                        ///< since the last tick; code `none` when there is none
   Event event;                               ///< of this tick; code `none` when there is none
   SafetyGuard guard;
   StatementTable statements;

@@ -159,6 +159,10 @@ const solver::State& Runner::estimated_state() const noexcept {
   return parts_->estimated.state;
 }
 
+void Runner::tell(EventCode code, int signal, double value) noexcept {
+  if (!latches_the_stop(code)) parts_->told_by_host = {code, 0.0, signal, value};
+}
+
 bool Runner::set_parameter(std::string_view name, double value) noexcept {
   for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i) {
     if (parts_->parameter_names[i] == name)

@@ -54,6 +54,7 @@ SwapResult Runner::swap_program(Runner& next) noexcept {
   Parts& before = *next.parts_;
   std::swap(now.guard, before.guard);
   std::swap(now.odometry, before.odometry);
+  std::swap(now.told_by_host, before.told_by_host);
   std::swap(now.clock_rate, before.clock_rate);
   std::swap(now.rates, before.rates);
   std::swap(now.frozen_wheel, before.frozen_wheel);

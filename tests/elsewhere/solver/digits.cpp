@@ -34,7 +34,7 @@ int main() {
       const std::vector<solver::Row> rows = oracle::random_rows(model, rows_with_one_answer, random);
       solver::Solver solver(model);
       solver::Solution solution(model);
-      solver.solve(state, rows, solution);
+      if (solver.solve(state, rows, solution) != solver::Status::ok) return 1;
       print(solution.tau);
       print(solution.qdd);
     }

@@ -52,8 +52,9 @@ enum class EventCode {
   outside,      ///< a frame stands outside of a position range or a region that holds it; `value`: how far
   not_at_rest,  ///< the longest time of a stop is over, and no sample shows the base at rest; `value`: its
                 ///< speed, as far as it is known
+  overrun,  ///< the host has skipped five control cycles within a second; `value`: how late the last was [s]
 };
-inline constexpr EventCode last_event_code = EventCode::not_at_rest;
+inline constexpr EventCode last_event_code = EventCode::overrun;
 ZWANG_EXPORT const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
 ZWANG_EXPORT const char* describe(EventCode code) noexcept;

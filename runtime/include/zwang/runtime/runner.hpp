@@ -121,6 +121,10 @@ class ZWANG_EXPORT Runner {
   /// is unknown and a value outside the parameter's range. Does not allocate.
   bool set_parameter(std::string_view name, double value) noexcept;
 
+  /// An event that the host has seen, as `overrun`. The next step has it, for the report and the log. Codes
+  /// that latch the stop belong to `SafetyGuard::stop`, and are ignored here.
+  void tell(EventCode code, int signal = -1, double value = 0.0) noexcept;
+
   /// From the next step on the program of `next` runs, from its start task, on the same robot. Build `next`
   /// on another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
   /// events stay. The difference of the torques fades within `handover`. The recorder is let go, as columns
