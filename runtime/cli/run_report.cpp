@@ -108,6 +108,10 @@ std::string truth_table(const RunReport& report) {
     table.add({"wheels", "slide over the floor from " + seconds(*report.base.slipped) + " on, with " +
                              with_unit(report.base.most_slip, "m/s") + " at most"});
   }
+  if (report.hand.began) {
+    table.add({"hands", "push the robot from " + seconds(*report.hand.began) + " on, with " +
+                            with_unit(report.hand.most, "N") + " at most"});
+  }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
   }
@@ -187,7 +191,9 @@ ordered_json json_truth(const RunReport& report) {
                    {"pitch", report.base.pitch},
                    {"fallen", finite_or_null(report.base.fallen)},
                    {"slipped", finite_or_null(report.base.slipped)},
-                   {"most_slip", report.base.most_slip}};
+                   {"most_slip", report.base.most_slip},
+                   {"pushed", finite_or_null(report.hand.began)},
+                   {"hardest_push", report.hand.most}};
   return truth;
 }
 
@@ -228,19 +234,29 @@ std::string transition_line(const runtime::Scheduler& scheduler, const Transitio
 namespace {
 
 constexpr double told_way = 0.01;  // [m] that an object is pushed away: what an eye sees
+constexpr double told_press =
+    1.0;  // [N] that an object is pressed with at the end: a twentieth of a usual push
 
 /// The objects that the base met, and the result. After a run that is done, a pushed object is where it
 /// should be, so its way is not reported.
 std::string met(const RunReport& report) {
   std::string text;
+  const bool is_done = report.outcome == "done";
+  if (!is_done && report.hand.began) {
+    text += ", pushed from outside with " + with_unit(report.hand.most, "N") + " from " +
+            seconds(*report.hand.began) + " on";
+  }
   for (const ObjectReport& o : report.objects) {
     if (o.is_hit()) {
       text += std::string(o.came ? ", was hit by `" : ", hit `") + o.name + "` with " +
               with_unit(o.peak_force, "N") + " at " + seconds(o.peak_at);
       if (o.allowed) text += " where " + with_unit(*o.allowed, "N") + " are allowed";
     }
-    if (report.outcome != "done" && o.pushed_away > told_way)
+    if (is_done) continue;
+    if (o.pushed_away > told_way)
       text += ", pushed `" + o.name + "` away by " + with_unit(o.pushed_away, "m");
+    if (!o.latched && o.steady_force > told_press)
+      text += ", stood pressed to `" + o.name + "` with " + with_unit(o.steady_force, "N");
   }
   return text;
 }

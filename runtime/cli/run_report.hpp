@@ -52,6 +52,7 @@ struct RunReport {
   std::optional<runtime::Why> why;     ///< none: it is `done`, or the plant ended it
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the base, as the plant has it
   runtime::BaseTruth base;
+  HandReport hand;
 };
 
 /// The name of a task; of `done` and `failed`, too.

@@ -105,6 +105,8 @@ void TruthWatch::meet(Watched& w, const runtime::ObjectTruth& object, const runt
 }
 
 void TruthWatch::look(const runtime::Truth& truth, const runtime::Scheduler& scheduler, bool in_task) {
+  if (truth.base.hand > 0.0 && !hand_.began) hand_.began = truth.time;
+  hand_.most = std::max(hand_.most, truth.base.hand);
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     Watched& w = watched_[i];
     if (truth.objects[i].touched && !w.yaw_at_touch) w.yaw_at_touch = truth.yaw;

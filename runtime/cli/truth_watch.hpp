@@ -29,6 +29,12 @@ struct ObjectReport {
   bool is_hit() const;
 };
 
+/// Hands that pressed on the robot.
+struct HandReport {
+  std::optional<double> began;  ///< [s]
+  double most = 0.0;            ///< [N]
+};
+
 /// A force driver that was in force when the last task ended.
 struct AskedForce {
   std::string row;
@@ -45,6 +51,7 @@ class TruthWatch {
   /// `in_task`: a task is active, not the brake behind it.
   void look(const runtime::Truth& truth, const runtime::Scheduler& scheduler, bool in_task);
   std::vector<ObjectReport> objects(const runtime::Truth& truth, const runtime::Scheduler& scheduler) const;
+  const HandReport& hand() const { return hand_; }
 
  private:
   struct Watched {
@@ -61,6 +68,7 @@ class TruthWatch {
   void meet(Watched& w, const runtime::ObjectTruth& object, const runtime::Truth& truth) const;
 
   std::vector<Watched> watched_;
+  HandReport hand_;
   double period_;  ///< [s]
   std::size_t window_;
   std::size_t looks_ = 0;

@@ -119,6 +119,7 @@ void WatchedRun::conclude(PlantStatus status, double elapsed) {
   }
   report.elapsed = elapsed;
   report.objects = watch_.objects(truth, runner.scheduler());
+  report.hand = watch_.hand();
   const std::vector<runtime::ScenePartner>& partners = parts_.plant.partners();
   for (std::size_t i = 0; i < partners.size(); ++i)
     report.partners.push_back(partner_report(partners[i], truth.robots[i].base));

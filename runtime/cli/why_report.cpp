@@ -27,6 +27,8 @@ ordered_json json_of(const WaitedTerm& term) {
                        {"value", term.value ? ordered_json(*term.value) : ordered_json(nullptr)},
                        {"unit", term.unit}};
   if (term.bound) json["bound"] = *term.bound;
+  if (term.stood > 0.0) json["stood"] = term.stood;
+  if (term.left) json["left"] = *term.left;
   if (!term.because.empty()) json["because"] = term.because;
   for (const WaitedSignal& s : term.signals) {
     json["signals"].push_back({{"name", s.name},
@@ -49,6 +51,7 @@ ordered_json json_of(const WaitedExit& exit) {
           {"is", to_string(exit.verdict)},
           {"true_for", exit.true_for},
           {"longest", exit.longest},
+          {"times", exit.times},
           {"for", exit.needed},
           {"terms", terms}};
 }

@@ -75,9 +75,10 @@ tasks:
     timeout: {after: 0.4 s, goto: failed}
 )",
                           wall("3 m") + "signals: {partner: {pose_of: door, dropouts: 99.99 %}}\n");
+  EXPECT_EQ(ended.sentence().find("`partner` was never received; `align` waited"), 0u) << ended.sentence();
   expect_words(ended, {"`align` waited 0.400 s, its timeout (task.yaml:",
                        "`abs(line.x.position) < 2 cm` and "
-                       "`abs(line.y.position) < 8 mm` are unknown because `partner` was never received"});
+                       "`abs(line.y.position) < 8 mm` are unknown without `partner`"});
   ASSERT_TRUE(ended.why);
   EXPECT_EQ(ended.why->cause, WhyCause::timeout);
   ASSERT_EQ(ended.why->waited.exits.size(), 1u);
@@ -104,7 +105,8 @@ tasks:
 )",
                           wall("0.6 m"));
   expect_words(ended, {"`go` waited 2.000 s, its timeout", "`moved(base_link) > 1 m` is false (0.1",
-                       "`go.go.x.nu` was at its limit, 25.00 N"});
+                       " m for at least ", "`go.go.x.nu` was at its limit, 25.00 N"});
+  EXPECT_EQ(ended.sentence().find("too short"), std::string::npos) << "more time would not open the door";
 }
 
 TEST(Why, TheNoteComesFirst) {
@@ -147,9 +149,9 @@ tasks:
     timeout: never
 )",
           std::string(open_floor) + "signals: {nearest: {script: [[0 s, 5 m], [0.3 s, lost]]}}\n");
-  expect_words(
-      ended, {"`go` was ended by the exit `nearest < 1.2 m` (task.yaml:", "of `always`",
-              "`nearest` came last 0.20", "ago and counts for 0.200 s", "`moved(base_link) > 1 m` is false"});
+  EXPECT_EQ(ended.sentence().find("`nearest` fell silent: it came last 0.20"), 0u) << ended.sentence();
+  expect_words(ended, {"ago and counts for 0.200 s; `go` was ended by the exit `nearest < 1.2 m` (task.yaml:",
+                       "of `always`, which fires when it is unknown", "`moved(base_link) > 1 m` is false"});
   EXPECT_EQ(ended.why->cause, WhyCause::always);
 }
 
@@ -201,8 +203,9 @@ TEST(Why, Ice) {
     timeout: {after: 1 s, goto: failed}
 )",
           std::string(open_floor) + "state: perfect\nfaults: [{at: 0 s, for: 10 s, floor_friction: 0.01}]\n");
-  expect_words(ended, {"`moved(base_link) > 0.3 m` is false (0.0", "; the guard told at 0.",
-                       ": a wheel slides that should roll"});
+  EXPECT_EQ(ended.sentence().find("wheels slid over the floor by 0."), 0u) << ended.sentence();
+  expect_words(ended,
+               {" m in all, from 0.1", " s on; `go` waited", "`moved(base_link) > 0.3 m` is false (0.0"});
 }
 
 TEST(Why, ABounceInterruptsWhatMustHold) {
@@ -219,6 +222,7 @@ tasks:
                           wall("0.6 m"));
   expect_words(ended, {"`contact.x.velocity > 0.02 m/s` is false (", " after it was true for ",
                        " of the 5.000 s that it must hold"});
+  EXPECT_EQ(ended.sentence().find("too short"), std::string::npos) << "it comes and goes";
 }
 
 TEST(Why, AnExitThatIsNeverTrue) {
@@ -234,17 +238,23 @@ tasks:
     timeout: {after: 0.2 s, goto: failed}
 )",
                           std::string(open_floor) + "signals: {level: {script: [[0 s, 3 m]]}}\n");
-  expect_words(ended, {"`level > 10 m` is false (3.000 m)"});
+  expect_words(ended, {"`level > 10 m` is false (3.000 m all the time)"});
 }
 
 TEST(Why, ATimeoutThatIsTooShort) {
   const Ended ended = run(std::string(drive_ahead) + R"(
     exits:
       - {when: moved(base_link) > 2 m, goto: done}
-    timeout: {after: 1 s, goto: failed}
+    timeout: {after: 4 s, goto: failed}
 )",
                           open_floor);
-  expect_words(ended, {"`go` waited 1.000 s, its timeout", "`moved(base_link) > 2 m` is false (0."});
+  expect_words(ended, {"`go` waited 4.000 s, its timeout", ", too short by about ",
+                       " s at its pace: `moved(base_link) > 2 m` is false (1.0"});
+  // 0.3 m/s, and less while the base gathers speed: (2 m - the way so far) / (0.3 m/s).
+  ASSERT_TRUE(ended.why);
+  const WaitedTerm& term = ended.why->waited.exits.at(0).terms.at(0);
+  ASSERT_TRUE(term.left && term.value);
+  EXPECT_NEAR(*term.left, (2.0 - *term.value) / 0.3, 0.05);
 }
 
 // The base drives along its own axes; the exit looks at it from a frame that stands elsewhere.
@@ -262,7 +272,9 @@ tasks:
     timeout: {after: 0.5 s, goto: failed}
 )",
                           open_floor);
-  expect_words(ended, {"`abs(seen.y.position) < 5 cm` is false (4.000 m)"});
+  expect_words(ended,
+               {"`abs(seen.y.position) < 5 cm` is false (4.000 m all the time; `seen.y` of `base_link` in "
+                "`shelf` is driven by no row)"});
   EXPECT_EQ(ended.sentence().find("go.x.position"), std::string::npos) << "a term that holds is no reason";
 }
 
@@ -307,11 +319,13 @@ tasks:
 // Both regions end at x = 0.6 m, and the base stands at 2 m: 1.4 m outside of them.
 TEST(Why, ARegionThatIsLeft) {
   Ended ended = stands_outside("{polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}");
-  expect_words(ended, {"the guard told at 0.00", ": `base_link` left the region `room` by 1.400 m",
-                       "`always.fence.left` stood at -1.",
-                       ", beyond its limit of 0.050 m, which keeps `base_link` inside `room`"});
+  expect_words(ended,
+               {"`base_link` stood outside of the region `room` by 1.400 m, from the start; `wait` waited",
+                "`always.fence.left` stood at -1.",
+                ", beyond its limit of 0.050 m, which keeps `base_link` inside `room`"});
   ended = stands_outside("{circle: {at: [0 m, 0 m], radius: 0.6 m}}");
-  expect_words(ended, {": `base_link` left the region `room` by 1.400 m", ", beyond its limit of 0.550 m"});
+  expect_words(ended, {"`base_link` stood outside of the region `room` by 1.400 m, from the start",
+                       ", beyond its limit of 0.550 m"});
 }
 
 TEST(Why, AttemptsThatAreUsedUp) {
@@ -415,8 +429,8 @@ TEST(Why, WhatWasToldBeforeTheStopStandsBeforeIt) {
           std::string(open_floor) +
               "state: perfect\nfaults: [{at: 0 s, floor_friction: 0.01}, {at: 1 s, samples: nan}]\n");
   ASSERT_EQ(ended.state, RunState::stopped);
-  EXPECT_EQ(ended.sentence().find("the guard told at 0."), 0u) << ended.sentence();
-  EXPECT_LT(ended.sentence().find("a wheel slides that should roll"),
+  EXPECT_EQ(ended.sentence().find("wheels slid over the floor by "), 0u) << ended.sentence();
+  EXPECT_LT(ended.sentence().find("wheels slid over the floor"),
             ended.sentence().find("; then the protective stop latched in `go`: "))
       << ended.sentence();
 }

@@ -7,7 +7,7 @@ import type { Pose, Robot, Run, SceneObject, World } from './data';
 import { h, sizeOf } from './dom';
 import { baseAt, heightOf } from './motion';
 import { Pace } from './pace';
-import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, placeOf, type Instant } from './world';
+import { contactsAt, cornersOf, extentOf, forceLength, frameInWorld, instantAt, placeOf, type Instant } from './world';
 
 function put(object: three.Object3D, pose: Pose): void {
   const [a, b, c, d, e, f, g, i, j] = pose.r as [number, number, number, number, number, number, number, number, number];
@@ -221,8 +221,7 @@ export class SpaceView {
     this.arrows.clear();
     for (const contact of contactsAt(this.run, this.world, now)) {
       const direction = new three.Vector3(contact.normal[0], contact.normal[1], 0);
-      const length = 0.25 * Math.log10(1 + contact.force * 2);
-      this.arrows.add(new three.ArrowHelper(direction, new three.Vector3(...contact.at, this.world.robot.height), length, '#c62828', 0.12, 0.08));
+      this.arrows.add(new three.ArrowHelper(direction, new three.Vector3(...contact.at, this.world.robot.height), forceLength(contact.force), '#c62828', 0.12, 0.08));
     }
     if (this.follow && this.controls) {
       const step = new three.Vector3(now.base.x, now.base.y, 0).sub(this.controls.target);

@@ -107,6 +107,9 @@ export function worldPoint(place: Place, point: number[]): [number, number] {
   return [place.x + c * point[0]! - s * point[1]!, place.y + s * point[0]! + c * point[1]!];
 }
 
+/** [m] Of a force arrow in space: 1 N is seen, 1 kN stays in the picture. Foxglove shows the same (runtime/src/log/foxglove.cpp). */
+export const forceLength = (force: number): number => 0.25 * Math.log10(1 + 2 * force);
+
 export interface Contact { at: [number, number]; normal: [number, number]; force: number; name: string }
 
 function nearestOnSegment(p: number[], a: number[], b: number[]): [number, number] {

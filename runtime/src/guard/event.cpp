@@ -30,8 +30,10 @@ constexpr std::array event_words{
     EventWords{EventCode::torque_flipped, "torque_flipped", "a motor turns the wrong way"},
     EventWords{EventCode::joint_travel, "joint_travel", "an arm's joint is about to leave its travel"},
     EventWords{EventCode::joint_speed, "joint_speed", "an arm's joint is faster than it may be"},
-    EventWords{EventCode::runaway, "runaway",
-               "the base gets faster than it may while its motors are told to brake"},
+    EventWords{
+        EventCode::runaway, "runaway",
+        "the base gets faster while its motors are told to brake: something pushes it, or a motor turns "
+        "the wrong way"},
     EventWords{EventCode::rate_contradicts, "rate_contradicts",
                "the rate of a joint is not that of its position"},
     EventWords{EventCode::wheel_reversed, "wheel_reversed", "a wheel's encoder counts the wrong way round"},

@@ -11,7 +11,8 @@ SlipWatch::SlipWatch(const solver::Model& model) {
 
 std::optional<Event> SlipWatch::look(const solver::State& measured, const solver::State& allowed,
                                      double time) noexcept {
-  const double part = 1.0 - std::exp(-std::max(0.0, time - last_time_) / time_constant);
+  const double dt = std::max(0.0, time - last_time_);
+  const double part = 1.0 - std::exp(-dt / time_constant);
   last_time_ = time;
   const Wheel* worst = nullptr;
   speed_ = 0.0;
@@ -27,6 +28,7 @@ std::optional<Event> SlipWatch::look(const solver::State& measured, const solver
   if (worst == nullptr) return std::nullopt;
   const bool begins = !slips_ && speed_ > threshold;
   slips_ = speed_ > (slips_ ? 0.5 : 1.0) * threshold;
+  if (slips_) way_ += std::abs(worst->slip) * std::min(dt, time_constant);  // a clock may jump
   if (!begins) return std::nullopt;
   return Event{EventCode::slip, time, event_signal::of_joint(worst->joint, event_signal::qd), worst->slip};
 }

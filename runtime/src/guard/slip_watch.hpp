@@ -27,6 +27,8 @@ class SlipWatch {
   /// Slip is possible: half of the reported speed. Estimates that need wheels without slip are not trusted
   /// then.
   bool doubtful() const noexcept { return speed_ > 0.5 * threshold; }
+  /// [m] that the worst wheel slid while it slipped, since the start.
+  double way() const noexcept { return way_; }
   double speed() const noexcept {
     return std::max(0.0, speed_);
   }  ///< [m/s] beyond `share`, of the worst wheel
@@ -43,6 +45,7 @@ class SlipWatch {
   };
   std::vector<Wheel> wheels_;
   double speed_ = 0.0;
+  double way_ = 0.0;
   double last_time_ = 0.0;
   bool slips_ = false;
 };

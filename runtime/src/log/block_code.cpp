@@ -40,7 +40,9 @@ std::size_t bytes_for(std::uint64_t number) {
 }
 
 void append_number(std::string& bytes, std::uint64_t number, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(number >> (byte_bits * i));
+  char all[sizeof number];
+  for (std::size_t i = 0; i < sizeof number; ++i) all[i] = static_cast<char>(number >> (byte_bits * i));
+  bytes.append(all, size);
 }
 
 /// From the entry `order` on each minus the one before it.

@@ -7,8 +7,9 @@ namespace zwang::runtime {
 
 namespace {
 
-// Blocks are packed already: higher levels take longer and save little.
-constexpr int level = -5;
+// Blocks are packed already. Level -5 writes 17 % less and takes 1.8 times as long; level 1 takes 3.5 times
+// as long for 25 % less (the hospital's chunks).
+constexpr int level = -20;
 
 }  // namespace
 

@@ -36,7 +36,8 @@ ordered_json colour(double r, double g, double b, double a) {
 }
 const ordered_json of_robot = colour(0.18, 0.49, 0.88, 0.55), of_other = colour(0.55, 0.43, 0.31, 0.9),
                    of_tyre = colour(0.14, 0.15, 0.18, 1.0), of_link = colour(0.85, 0.51, 0.17, 1.0),
-                   of_object = colour(0.60, 0.65, 0.71, 0.9), of_region = colour(0.69, 0.45, 0.0, 1.0);
+                   of_object = colour(0.60, 0.65, 0.71, 0.9), of_region = colour(0.69, 0.45, 0.0, 1.0),
+                   of_force = colour(0.78, 0.16, 0.16, 1.0);
 
 ordered_json entity(double time, const std::string& frame, const std::string& id) {
   ordered_json one = {{"timestamp", stamp(time)},
@@ -213,8 +214,14 @@ std::string of_scene() {
                                 {"lifetime", of_time()},
                                 {"frame_locked", of_type("boolean")}};
   const ordered_json nothing = ordered_json::object();  // no message has one
-  for (const char* part : {"metadata", "arrows", "spheres", "texts", "models"})
+  for (const char* part : {"metadata", "spheres", "texts", "models"})
     entity_fields[part] = array_of(object(nothing));
+  entity_fields["arrows"] = array_of(object({{"pose", of_pose()},
+                                             {"shaft_length", of_type("number")},
+                                             {"shaft_diameter", of_type("number")},
+                                             {"head_length", of_type("number")},
+                                             {"head_diameter", of_type("number")},
+                                             {"color", of_colour()}}));
   const ordered_json points = array_of(of_point()), colours = array_of(of_colour()),
                      indices = array_of(of_type("integer"));
   entity_fields["cubes"] =
@@ -237,8 +244,10 @@ std::string of_scene() {
                                                 {"color", of_colour()},
                                                 {"colors", colours},
                                                 {"indices", indices}}));
-  return definition("foxglove.SceneUpdate", {{"deletions", array_of(object(nothing))},
-                                             {"entities", array_of(object(entity_fields))}});
+  const ordered_json deletion =
+      object({{"timestamp", of_time()}, {"type", of_type("integer")}, {"id", of_type("string")}});
+  return definition("foxglove.SceneUpdate",
+                    {{"deletions", array_of(deletion)}, {"entities", array_of(object(entity_fields))}});
 }
 
 std::string of_log() {
@@ -256,7 +265,8 @@ std::vector<LogChannel> channels() {
   return {{"/tf", "foxglove.FrameTransforms", of_transforms()},
           {"/tf_static", "foxglove.FrameTransforms", of_transforms()},
           {"/scene", "foxglove.SceneUpdate", of_scene()},
-          {"/log", "foxglove.Log", of_log()}};
+          {"/log", "foxglove.Log", of_log()},
+          {"/forces", "foxglove.SceneUpdate", of_scene()}};
 }
 
 ordered_json stamp(double time) {
@@ -320,6 +330,36 @@ ordered_json log_message(double time, Level level, const std::string& message, c
           {"name", name},
           {"file", ""},
           {"line", 0}};
+}
+
+double height_of_contact(const lang::Robot& robot) {
+  return robot.bumper_height > 0.0 ? robot.bumper_height : fallback_height;
+}
+
+double length_of_force(double force) {
+  return 0.25 * std::log10(1.0 + 2.0 * force);
+}
+
+ordered_json forces_update(double time, const std::vector<ForceArrow>& arrows) {
+  constexpr int all_of_the_topic = 1;
+  constexpr double most_head = 0.12, head_diameter = 0.08, shaft_diameter = 0.03;  // [m]
+  ordered_json entities = ordered_json::array();
+  for (const ForceArrow& arrow : arrows) {
+    const double length = length_of_force(arrow.force), head = std::min(most_head, length / 2.0);
+    solver::Pose pose;
+    pose.position = arrow.at;
+    pose.rotation = solver::rotation_from_rpy(0.0, 0.0, arrow.heading);
+    ordered_json one = entity(time, "world", "force " + arrow.object);
+    one["arrows"].push_back({{"pose", pose_json(pose)},
+                             {"shaft_length", length - head},
+                             {"shaft_diameter", shaft_diameter},
+                             {"head_length", head},
+                             {"head_diameter", head_diameter},
+                             {"color", of_force}});
+    entities.push_back(one);
+  }
+  const ordered_json gone = {{"timestamp", stamp(time)}, {"type", all_of_the_topic}, {"id", ""}};
+  return {{"deletions", ordered_json::array({gone})}, {"entities", entities}};
 }
 
 std::string frame_of(const std::string& object) {

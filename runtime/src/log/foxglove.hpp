@@ -14,7 +14,7 @@ namespace zwang::runtime::foxglove {
 enum class Level { unknown = 0, debug = 1, info = 2, warning = 3, error = 4 };
 
 /// Topics and schemas, in the order of `Topic`.
-enum Topic : std::size_t { transforms, fixed_transforms, scene, log };
+enum Topic : std::size_t { transforms, fixed_transforms, scene, log, forces };
 std::vector<LogChannel> channels();
 
 /// `time` [s] since the start of the clock that the run accepts.
@@ -32,6 +32,22 @@ class TransformsText {
 };
 nlohmann::ordered_json log_message(double time, Level level, const std::string& message,
                                    const std::string& name);
+
+/// What an object presses on the robot with.
+struct ForceArrow {
+  std::string object;
+  solver::Vector3 at = solver::Vector3::Zero();  ///< [m] in the world
+  double heading = 0.0;                          ///< [rad] of the force on the robot
+  double force = 0.0;                            ///< [N]
+};
+/// [m] A length that grows as the logarithm: 1 N is seen, 1 kN stays in the picture. The page draws the same
+/// (`forceLength` of web/src/world.ts).
+double length_of_force(double force);
+/// All arrows at a time, in the place of those before: a viewer that jumps to a time sees the last message
+/// alone, and none that is over.
+nlohmann::ordered_json forces_update(double time, const std::vector<ForceArrow>& arrows);
+/// How high above the floor the bumper of the robot meets what stands there. [m]
+double height_of_contact(const lang::Robot& robot);
 
 /// The frame of a scene's object or robot. No link can have this name.
 std::string frame_of(const std::string& object);

@@ -23,6 +23,9 @@ constexpr std::uint64_t chunk_span = 50'000'000;          // [ns]
 constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
 // Where time stands still, because no samples arrive, its records have to be on disk all the same.
 constexpr std::size_t chunk_records = 100;
+constexpr std::string_view compression = "zstd";
+constexpr std::size_t chunk_fields =
+    8 + 8 + 8 + 4 + (4 + compression.size()) + 8;            // [bytes] before its messages
 constexpr std::uint16_t records_id = mcap::records_channel;  // of the schema, too; other channels follow
 constexpr double shown_every = 0.1;                          // [s]: a record in the form that viewers read
 
@@ -225,15 +228,19 @@ class McapSink : public LogSink {
       index += mcap::record(Opcode::message_index, Content().u16(channel.id).text(stamps.bytes()).bytes());
       channel.in_chunk.clear();
     }
-    Content content;
-    content.u64(first).u64(last).u64(chunk_.size()).u32(crc32(chunk_)).text("zstd");
-    content.u64(packed->size()).raw(*packed);
+    // Head, messages and index follow each other into the file: no copy of a chunk is made.
+    Content head;
+    head.raw(std::string(1, static_cast<char>(Opcode::chunk))).u64(chunk_fields + packed->size());
+    head.u64(first).u64(last).u64(chunk_.size()).u32(crc32(chunk_)).text(compression).u64(packed->size());
     begin_ = std::min(begin_, first);
     end_ = std::max(end_, last);
     ++chunks_;
     chunk_.clear();
     has_chunk_ = false;
-    const std::string error = append(mcap::record(Opcode::chunk, content.bytes()) + index);
+    std::string error = append(head.bytes());
+    for (const std::string_view part : {*packed, std::string_view(index)}) {
+      if (error.empty()) error = append(part);
+    }
     return error.empty() ? file_.flush() : error;
   }
 
@@ -255,9 +262,7 @@ class McapSink : public LogSink {
   /// The index of the chunk that begins at `place`, and where the record behind it begins. Empty where none
   /// does.
   std::string chunk_index_at(std::size_t place, std::size_t& next) const {
-    constexpr std::string_view compression = "zstd";
-    constexpr std::size_t fields = 8 + 8 + 8 + 4 + (4 + compression.size()) + 8;
-    const std::string chunk = file_.read_at(place, mcap::record_head + fields);
+    const std::string chunk = file_.read_at(place, mcap::record_head + chunk_fields);
     mcap::Reader head(chunk);
     const unsigned char opcode = head.opcode();
     const std::size_t size = mcap::record_head + static_cast<std::size_t>(head.u64());

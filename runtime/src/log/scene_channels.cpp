@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "log/contact_place.hpp"
 #include "log/foxglove.hpp"
 #include "log/pace.hpp"
 #include "zwang/runtime/scheduler.hpp"
@@ -53,8 +54,17 @@ class SceneChannels : public LogChannels {
     for (int j = 0; j < program_.robot.model.joint_count(); ++j)
       joints_.push_back(place_of(program_.robot.model.joint(j).name + ".q"));
     if (program_.scene) {
-      for (const lang::SceneObject& object : program_.scene->objects) add_mover(object.name);
-      for (const lang::SceneRobot& robot : program_.scene->robots) add_mover(robot.name);
+      const double height = foxglove::height_of_contact(program_.robot);
+      for (const lang::SceneObject& object : program_.scene->objects) {
+        add_mover(object.name);
+        add_touched(object.name, planar(object.at[0], object.at[1], object.yaw), outline_of(object, height));
+      }
+      for (const lang::SceneRobot& robot : program_.scene->robots) {
+        add_mover(robot.name);
+        if (robot.program)
+          add_touched(robot.name, planar(robot.at[0], robot.at[1], robot.yaw),
+                      robot.program->robot.footprint);
+      }
     }
     for (const char* name : {"task", "event", "event.signal", "switch", "switch.exit", "switch.refusal"})
       words_.push_back(place_of(name));
@@ -67,7 +77,10 @@ class SceneChannels : public LogChannels {
       put(foxglove::scene, text_of(foxglove::scene_update(time_, program_)));
     }
     has_begun_ = true;
-    if (pace_.is_due(time_)) put(foxglove::transforms, moving_transforms(values));
+    if (pace_.is_due(time_)) {
+      put(foxglove::transforms, moving_transforms(values));
+      tell_forces(values, put);
+    }
     tell_task(values, put);
     tell_event(values, put);
   }
@@ -91,6 +104,15 @@ class SceneChannels : public LogChannels {
     Places places;
   };
 
+  /// What the plant measures a force at.
+  struct Touched {
+    std::string name;
+    std::size_t force;
+    Places places;
+    Pose pose;  ///< of one that stays
+    std::vector<Vector3> outline;
+  };
+
   std::size_t place_of(const std::string& name) const {
     const auto found =
         std::ranges::find_if(columns_, [&](const Column& column) { return column.name == name; });
@@ -102,6 +124,11 @@ class SceneChannels : public LogChannels {
   void add_mover(const std::string& name) {
     const Places places = places_of("truth." + name);
     if (places[0] < columns_.size()) movers_.push_back({name, places});
+  }
+  void add_touched(const std::string& name, const Pose& pose, const std::vector<Vector3>& outline) {
+    const std::size_t force = place_of("truth." + name + ".force");
+    if (force < columns_.size() && outline.size() > 2 && program_.robot.footprint.size() > 2)
+      touched_.push_back({name, force, places_of("truth." + name), pose, outline});
   }
   /// Zero where it is blank or not logged.
   static double value(std::span<const double> values, std::size_t place) {
@@ -138,6 +165,32 @@ class SceneChannels : public LogChannels {
                       planar(value(values, x), value(values, y), value(values, yaw)));
     }
     return transforms_.end();
+  }
+
+  /// While something is touched, and once when nothing is any more.
+  void tell_forces(std::span<const double> values, const Put& put) {
+    std::vector<foxglove::ForceArrow> arrows;
+    for (const Touched& one : touched_) {
+      const double force = value(values, one.force);
+      if (!(force > 0.0)) continue;
+      const auto [x, y, yaw] = one.places;
+      const Pose object =
+          x < columns_.size() ? planar(value(values, x), value(values, y), value(values, yaw)) : one.pose;
+      const Pose base = planar(value(values, base_[0]), value(values, base_[1]), value(values, base_[2]));
+      ContactPlace place = contact_place(moved(program_.robot.footprint, base), moved(one.outline, object));
+      place.at.z() = foxglove::height_of_contact(program_.robot);
+      arrows.push_back({one.name, place.at, place.heading, force});
+    }
+    if (!arrows.empty() || shows_forces_)
+      put(foxglove::forces, text_of(foxglove::forces_update(time_, arrows)));
+    shows_forces_ = !arrows.empty();
+  }
+
+  static std::vector<Vector3> moved(const std::vector<Vector3>& outline, const Pose& pose) {
+    std::vector<Vector3> points;
+    for (const Vector3& point : outline)
+      points.push_back(pose.position + pose.rotation * Vector3(point.x(), point.y(), 0.0));
+    return points;
   }
 
   static Pose planar(double x, double y, double yaw) {
@@ -223,6 +276,8 @@ class SceneChannels : public LogChannels {
   std::array<std::size_t, 2> lean_{};  ///< the columns of roll and pitch
   std::vector<std::size_t> joints_;
   std::vector<Mover> movers_;
+  std::vector<Touched> touched_;
+  bool shows_forces_ = false;
   std::vector<std::size_t> words_;
   bool has_begun_ = false;
   double time_ = 0.0;  ///< [s]

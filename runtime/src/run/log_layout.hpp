@@ -16,6 +16,7 @@ namespace zwang::runtime {
 
 /// Everything that one record tells of.
 struct Tick {
+  double time;                         ///< [s] that the run accepted: it never goes back
   const Sensed& sensed;                ///< as it came
   std::span<const double> parameters;  ///< as they stood then
   const Sensed& known;                 ///< with the base as the wheels tell it

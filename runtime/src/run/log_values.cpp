@@ -16,7 +16,7 @@ void LogLayout::put(int column, double value) noexcept {
 std::span<const double> LogLayout::fill(const StatementTable& statements, const Tick& tick) noexcept {
   std::fill(values_.begin(), values_.end(), log_column::blank);
   const solver::State& state = tick.known.state;
-  put(log_column::time, tick.sensed.time);
+  put(log_column::time, tick.time);
   inputs_.write(tick.sensed, tick.parameters,
                 std::span(values_).subspan(static_cast<std::size_t>(first_input_), inputs_.columns().size()));
   if (tick.scheduler.task() >= 0) put(log_column::task, tick.scheduler.task());

@@ -151,6 +151,7 @@ struct Runner::Parts {
   LogLayout layout;
   std::vector<double> given_parameters;  ///< as they stood when the tick began
   Recorder* recorder = nullptr;
+  double logged = -std::numeric_limits<double>::infinity();  ///< [s] of the last record
   Eigen::VectorXd handed_over;        ///< difference of the torques at a swap of programs
   double handed_over_for = handover;  ///< [s] since then
   Eigen::VectorXd wanted;             ///< the solution's torques and the friction's

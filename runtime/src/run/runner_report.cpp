@@ -25,22 +25,13 @@ void Runner::Parts::follow_limits() noexcept {
 
 void Runner::Parts::record(const Sensed& sensed, bool good, bool solved,
                            std::span<const double> extra) noexcept {
+  // Behind a clock that stood a good sample may come before the time at which a refused one was due.
+  logged = std::max(logged, good ? guard.time() : guard.refusal().time);
   const Shortfall shortfall = find_shortfall();
-  const Tick tick{sensed,
-                  given_parameters,
-                  good ? estimated : sensed,
-                  scheduler,
-                  solved,
-                  solution,
-                  solver_status,
-                  guard_status,
-                  tau,
-                  command,
-                  extra,
-                  shortfall,
-                  event,
-                  force_on_base(),
-                  slip.speed()};
+  const Tick tick{logged,       sensed, given_parameters, good ? estimated : sensed,
+                  scheduler,    solved, solution,         solver_status,
+                  guard_status, tau,    command,          extra,
+                  shortfall,    event,  force_on_base(),  slip.speed()};
   recorder->record(layout.fill(statements, tick));
 }
 
@@ -201,6 +192,9 @@ std::optional<ShortfallReport> Runner::shortfall() const {
 
 namespace {
 
+/// [m] that wheels slid while the guard saw it. Less is a jolt at a contact, and keeps no base from its way.
+constexpr double told_slide = 0.01;
+
 /// The frame and the region of a limit's row, where it is a region's.
 std::string kept_by(const std::optional<LimitReport>& limit, const StatementTable& statements) {
   if (!limit) return {};
@@ -232,6 +226,7 @@ std::optional<Why> Runner::why() const {
                .limit_keeps = {},
                .stop = {},
                .refused = {},
+               .met = {},
                .told = {}};
   end.limit_keeps = kept_by(end.limit, p.statements);
   if (p.guard.stopped()) end.stop = describe_stop();
@@ -244,13 +239,18 @@ std::optional<Why> Runner::why() const {
       end.refused.push_back({p.signals[static_cast<std::size_t>(told.signal - first)].name, told.value});
     } else if (!latches_the_stop(told.code) && !is_told_already(kinds, told) && told.time <= until) {
       kinds.push_back(told);
-      const bool is_of_row = told.code == EventCode::outside && told.signal >= first_row;
-      end.told.push_back(
-          "the guard told at " + with_unit(told.time, "s") + ": " +
-          (is_of_row
-               ? words_of_excursion(p.statements.all()[static_cast<std::size_t>(told.signal - first_row)],
-                                    told.value, p.limits.reports())
-               : describe(told.code)));
+      const std::string at = with_unit(told.time, "s");
+      if (told.code == EventCode::outside && told.signal >= first_row) {
+        const bool at_start = !p.transitions.empty() && told.time <= p.transitions.front().time;
+        end.met.push_back(
+            words_of_excursion(p.statements.all()[static_cast<std::size_t>(told.signal - first_row)], told,
+                               at_start, p.limits.reports()));
+      } else if (told.code == EventCode::slip && p.slip.way() > told_slide) {
+        end.met.push_back("wheels slid over the floor by " + with_unit(p.slip.way(), "m") + " in all, from " +
+                          at + " on");
+      } else {
+        end.told.push_back("the guard told at " + at + ": " + describe(told.code));
+      }
     }
   }
   return why_of(end);

@@ -74,10 +74,18 @@ class Sentence {
   std::string text(const Transition* t) const {
     const std::string of = t != nullptr ? of_transition(*t) : of_the_end();
     const std::string note = t != nullptr ? end_.scheduler.note(*t) : "";
+    const std::string told = joined(end_.told), missing = joined(missing_signals());
     // A stop comes last of the guard's reports: wheels that slide seem to have motors that turn the wrong
     // way.
-    if (why_.cause == WhyCause::stopped && !end_.told.empty()) return told() + "; then " + of + at_limit();
-    return (note.empty() ? "" : note + ": ") + of + (end_.told.empty() ? "" : "; ") + told() + at_limit();
+    if (why_.cause == WhyCause::stopped) {
+      std::vector<std::string> before = end_.met;
+      before.insert(before.end(), end_.told.begin(), end_.told.end());
+      return joined(before) + (before.empty() ? "" : "; then ") + of +
+             (missing.empty() ? "" : "; " + missing) + at_limit();
+    }
+    std::string text = note.empty() ? "" : note + ": ";
+    for (const std::string& first : {joined(end_.met), missing}) text += first.empty() ? "" : first + "; ";
+    return text + of + (told.empty() ? "" : "; ") + told + at_limit();
   }
 
  private:
@@ -92,10 +100,32 @@ class Sentence {
     return "; " + quoted(limit.row) + is + keeps;
   }
 
-  std::string told() const {
+  static std::string joined(const std::vector<std::string>& parts) {
     std::string text;
-    for (const std::string& one : end_.told) text += (text.empty() ? "" : "; ") + one;
+    for (const std::string& one : parts) text += (text.empty() ? "" : "; ") + one;
     return text;
+  }
+
+  /// Of the exit that was taken, of a `require`, or of those that were waited for.
+  std::vector<std::string> missing_signals() const {
+    if (why_.met) return WhyWords::missing(*why_.met);
+    std::vector<std::string> all;
+    for (const WaitedExit& exit : WhyWords::leading(why_.waited)) {
+      for (const std::string& one : WhyWords::missing(exit)) {
+        if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+      }
+    }
+    return all;
+  }
+
+  /// By how much a timeout came too early. A pace counts as far ahead as the wait was long.
+  std::string too_short() const {
+    std::optional<double> least;
+    for (const WaitedExit& exit : WhyWords::leading(why_.waited)) {
+      const std::optional<double> left = WhyWords::time_left(exit);
+      if (left && *left < why_.waited.elapsed) least = std::min(left.value(), least.value_or(*left));
+    }
+    return least ? ", too short by about " + with_unit(*least, "s", 2) + " at its pace" : "";
   }
 
   static std::string quoted(const std::string& text) { return "`" + text + "`"; }
@@ -129,11 +159,10 @@ class Sentence {
     const bool is_always = t.cause == Cause::always;
     std::string text = quoted(why_.waited.task) + " was ended by the exit " + quoted(why_.met->when) +
                        words_.place(why_.met->span) + (is_always ? " of `always`" : "");
+    if (is_always && why_.met->verdict == Verdict::unknown) text += ", which fires when it is unknown";
     std::string values;
     for (const WaitedTerm& term : why_.met->terms) {
       if (term.value) values += (values.empty() ? "" : ", ") + with_unit(*term.value, term.unit);
-      for (const WaitedSignal& signal : term.signals)
-        values += (values.empty() ? "" : ", ") + in_words(signal);
     }
     return text + (values.empty() ? "" : ": " + values);
   }
@@ -154,7 +183,7 @@ class Sentence {
     switch (why_.cause) {
       case WhyCause::timeout:
         return task_with_entry() + " waited " + with_unit(why_.waited.elapsed, "s") + ", its timeout" +
-               words_.place(end_.scheduler.where(t)) + ": " + waiting();
+               words_.place(end_.scheduler.where(t)) + too_short() + ": " + waiting();
       case WhyCause::exit:
       case WhyCause::always: {
         const bool has_others = !why_.waited.exits.empty() && why_.cause == WhyCause::always;

@@ -48,21 +48,28 @@ struct EndOfRun {
   std::string limit_keeps;           ///< of a region: "`footprint` inside `ward`"
   std::string stop;                  ///< what latched the protective stop; empty: it is not latched
   std::vector<RefusedSignal> refused;
-  std::vector<std::string> told;  ///< the guard's reports while the task was active, in words
+  std::vector<std::string> met;   ///< in words: wheels that slide, a region left
+  std::vector<std::string> told;  ///< the guard's other reports while the task was active, in words
 };
 Why why_of(const EndOfRun& end);
 
-/// Which frame left its range or its region, and by how much. `at_first`: the event's distance, SI; `limits`:
-/// of the run, which know the largest one.
-std::string words_of_excursion(const Statement& row, double at_first, const std::vector<LimitReport>& limits);
+/// Which frame left its range or its region, when, and by how much. `told` has the distance at first;
+/// `limits`, of the run, know the largest one.
+std::string words_of_excursion(const Statement& row, const Event& told, bool at_start,
+                               const std::vector<LimitReport>& limits);
 
 /// The words of `Why::sentence`.
 struct WhyWords {
   const EndOfRun& end;
   std::string place(const lang::Span& span) const;
+  static std::vector<std::string> missing(const WaitedExit& exit);
   std::string of_terms(const WaitedExit& exit) const;
   std::string of_exit(const WaitedExit& exit) const;
   std::string of_waiting(const WaitedTask& task) const;
+  /// [s] that the exit needs at the pace of late; none: it does not come nearer.
+  static std::optional<double> time_left(const WaitedExit& exit);
+  /// Those that lead on; where none does, all.
+  static std::vector<WaitedExit> leading(const WaitedTask& task);
 };
 
 }  // namespace zwang::runtime

@@ -6,19 +6,22 @@
 namespace zwang::runtime {
 
 GuardedExits::GuardedExits(const std::vector<lang::Exit>& given, int owner_task)
-    : exits(given), owner(owner_task) {
+    : exits(given), owner(owner_task), compared(comparisons(given)) {
   for (const lang::Exit& exit : exits) decisions.emplace_back(exit.when, names);
 }
 
-Guards::Guards(std::size_t most_exits, std::size_t most_nodes, double period, Unknown unknown)
+Guards::Guards(std::size_t most_exits, std::size_t most_nodes, std::size_t most_compared, double period,
+               Unknown unknown)
     : states_(most_exits),
       values_(most_exits * most_nodes),
+      course_(most_compared),
       most_nodes_(most_nodes),
       period_(period),
       unknown_(unknown) {}
 
 void Guards::restart() noexcept {
   std::fill(states_.begin(), states_.end(), GuardState{});
+  course_.restart();
 }
 
 void Guards::advance(GuardedExits& guarded, const Facts& facts,
@@ -36,9 +39,23 @@ void Guards::advance(GuardedExits& guarded, const Facts& facts,
     const bool holds = now.verdict == Verdict::yes || state.at_once;
     // An unknown condition has not passed the release either.
     state.held = holds || (state.held && now.verdict == Verdict::unknown);
+    if (holds && state.true_ticks == 0 && state.times < 1 << 30) ++state.times;
     state.true_ticks = holds ? std::min(state.true_ticks + 1, 1 << 30) : 0;
     state.longest_ticks = std::max(state.longest_ticks, state.true_ticks);
   }
+  if (course_.advance()) keep(guarded, facts);
+}
+
+/// What decided a condition early leaves the comparisons behind without a value.
+void Guards::keep(GuardedExits& guarded, const Facts& facts) noexcept {
+  for (std::size_t i = 0; i < guarded.exits.size(); ++i) {
+    if (states_[i].is_whole) continue;
+    evaluate(guarded.exits[i].when, guarded.owner, facts,
+             std::span(values_).subspan(i * most_nodes_, most_nodes_));
+    states_[i].is_whole = true;
+  }
+  for (std::size_t i = 0; i < guarded.compared.size(); ++i)
+    course_.keep(i, lack_of(guarded.compared[i], values(guarded.compared[i].exit)));
 }
 
 bool Guards::is_due(const std::vector<lang::Exit>& exits, std::size_t exit,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schedule/condition.hpp"
+#include "schedule/course.hpp"
 
 namespace zwang::runtime {
 
@@ -23,13 +24,15 @@ struct GuardedExits {
 
   const std::vector<lang::Exit>& exits;
   int owner;  ///< as for Facts
+  std::vector<Compared> compared;
   SharedNames names;
   std::vector<Decision> decisions;  ///< of each exit
 };
 
 class Guards {
  public:
-  Guards(std::size_t most_exits, std::size_t most_nodes, double period, Unknown unknown);
+  Guards(std::size_t most_exits, std::size_t most_nodes, std::size_t most_compared, double period,
+         Unknown unknown);
 
   /// Forgets how long each condition has been true, and that it was.
   void restart() noexcept;
@@ -43,6 +46,9 @@ class Guards {
 
   /// The longest of these since `restart`. [s]
   double longest(std::size_t exit) const noexcept { return states_[exit].longest_ticks * period_; }
+  /// How often it became true since `restart`.
+  int times(std::size_t exit) const noexcept { return states_[exit].times; }
+  const Course& course() const noexcept { return course_; }
   /// Whether `values` has all nodes of the exit's condition: false where some of them decided it.
   bool is_whole(std::size_t exit) const noexcept { return states_[exit].is_whole; }
   /// The values of the nodes of the exit's condition at its last evaluation.
@@ -54,12 +60,16 @@ class Guards {
   struct GuardState {
     int true_ticks = 0;
     int longest_ticks = 0;
+    int times = 0;
     bool held = false;     ///< with `release`: was true, and has not passed it yet
     bool at_once = false;  ///< a stale signal counts as true
     bool is_whole = true;
   };
   std::vector<GuardState> states_;
+  void keep(GuardedExits& guarded, const Facts& facts) noexcept;
+
   std::vector<double> values_;  ///< by exit, then node
+  Course course_;
   std::size_t most_nodes_;
   double period_;
   Unknown unknown_;

@@ -199,6 +199,9 @@ struct Scheduler::Parts final : Facts {
   std::vector<int> signals_of(const lang::ExpressionNode& name, int owner) const;
   WaitedExit waited(const lang::Condition& condition, int owner, std::span<const double> values,
                     const std::vector<SignalState>& states) const;
+  std::string asked_of(const lang::Condition& condition, const Compared& compared, const std::string& unit,
+                       int owner) const;
+  void follow_course(const TaskSnapshot& now, int owner, std::size_t exit, WaitedExit& waited) const;
   std::string name_of(const lang::Target& target) const;
 
   const lang::Task& active() const noexcept { return tasks[task]; }

@@ -92,8 +92,9 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       start(given.start),
       entries(tasks.tasks.size(), 0),
       entered_last(tasks.tasks.size(), 0.0),
-      guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::does_not_fire),
-      always_guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::fires_when_stale) {
+      guards(tasks.most_exits, tasks.most_nodes, tasks.most_compared, control_period, Unknown::does_not_fire),
+      always_guards(tasks.most_exits, tasks.most_nodes, tasks.most_compared, control_period,
+                    Unknown::fires_when_stale) {
   for (const lang::Output& output : declared_outputs) outputs.push_back(output.start);
   pushing.resize(tasks.most_nodes);
   list_followers();
@@ -140,7 +141,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   wanted.reserve(most_wanted);
   renewed.reserve(2 * most_wanted);
   for (const lang::Task& t : tasks.tasks)
-    left.emplace_back(t.exits.size(), tasks.most_nodes, given.signals.size());
+    left.emplace_back(t.exits.size(), tasks.most_nodes, tasks.most_compared, given.signals.size());
   blend.emplace(most_wanted, tasks.most_rows, horizon);
   sources.reserve(Blend::most_sets * blend->capacity());
 }

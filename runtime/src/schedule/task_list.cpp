@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "schedule/braking.hpp"
+#include "schedule/course.hpp"
 #include "schedule/plane_norm.hpp"
 #include "schedule/region_fence.hpp"
 #include "zwang/lang/condition_function.hpp"
@@ -239,6 +240,7 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
     most_exits = std::max(most_exits, task.exits.size());
     most_rows = std::max(most_rows, row_count(task));
     most_nodes = std::max(most_nodes, longest_condition(task));
+    most_compared = std::max(most_compared, comparisons(task.exits).size());
   }
   most_axes += axis_count(always);
   most_rows += row_count(always);

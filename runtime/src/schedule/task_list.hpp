@@ -30,7 +30,8 @@ struct TaskList {
   // The most that can be in force at once, `always` included.
   std::size_t most_axes = 0;
   std::size_t most_exits = 0;
-  std::size_t most_nodes = 0;  ///< of a condition
+  std::size_t most_nodes = 0;     ///< of a condition
+  std::size_t most_compared = 0;  ///< comparisons in a task's exits
   int most_rows = 0;
 };
 

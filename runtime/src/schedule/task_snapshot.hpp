@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "schedule/course.hpp"
 #include "schedule/signal_table.hpp"
 
 namespace zwang::runtime {
@@ -13,14 +14,17 @@ struct TaskSnapshot {
     std::vector<double> values;  ///< of each node of its condition, as `evaluate` leaves them
     double true_for = 0.0;       ///< [s]
     double longest = 0.0;        ///< [s]
+    int times = 0;               ///< that it became true
   };
-  TaskSnapshot(std::size_t exit_count, std::size_t most_nodes, std::size_t signal_count)
-      : exits(exit_count), signals(signal_count), required(most_nodes) {
+  TaskSnapshot(std::size_t exit_count, std::size_t most_nodes, std::size_t most_compared,
+               std::size_t signal_count)
+      : exits(exit_count), course(most_compared), signals(signal_count), required(most_nodes) {
     for (Exit& exit : exits) exit.values.resize(most_nodes);
   }
 
   double elapsed = 0.0;  ///< [s] since the task was entered
   std::vector<Exit> exits;
+  Course course;
   std::vector<SignalState> signals;
   std::vector<double> required;  ///< of each node of its `require`, when it was asked last
 };

@@ -156,6 +156,7 @@ void Scheduler::Parts::remember(TaskSnapshot& snapshot, int of_task) const noexc
   const Guards& of = of_task == tasks.always() ? always_guards : guards;
   const std::vector<lang::Exit>& exits = tasks[of_task].exits;
   snapshot.elapsed = elapsed();
+  snapshot.course = of.course();
   for (std::size_t i = 0; i < snapshot.exits.size(); ++i) {
     TaskSnapshot::Exit& exit = snapshot.exits[i];
     if (of.is_whole(i)) {
@@ -165,6 +166,7 @@ void Scheduler::Parts::remember(TaskSnapshot& snapshot, int of_task) const noexc
     }
     exit.true_for = of.dwell(i);
     exit.longest = of.longest(i);
+    exit.times = of.times(i);
   }
   for (std::size_t i = 0; i < snapshot.signals.size(); ++i)
     snapshot.signals[i] = signals.state(static_cast<int>(i));

@@ -4,6 +4,7 @@
 
 #include "schedule/parts.hpp"
 #include "zwang/lang/printable.hpp"
+#include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::runtime {
 
@@ -187,6 +188,65 @@ std::string Scheduler::Parts::name_of(const lang::Target& target) const {
   return "failed";
 }
 
+/// What drives the coordinate that the term looks at, where that is one alone.
+std::string Scheduler::Parts::asked_of(const lang::Condition& condition, const Compared& compared,
+                                       const std::string& unit, int owner) const {
+  const auto frame_name = [&](int frame) { return declarations[static_cast<std::size_t>(frame)].name; };
+  const lang::ExpressionNode* found = nullptr;
+  std::vector<int> open = {compared.left, compared.right};
+  while (!open.empty()) {
+    const lang::ExpressionNode& n = condition.nodes[static_cast<std::size_t>(open.back())];
+    open.pop_back();
+    for (const int operand : {n.left, n.right}) {
+      if (operand >= 0) open.push_back(operand);
+    }
+    if (is_fixed(n.op) || n.left >= 0) continue;
+    if (n.op != Op::coordinate || found != nullptr) return {};
+    found = &n;
+  }
+  if (found == nullptr) return {};
+  const Origin origin{found->in_always ? tasks.always() : owner, found->index, found->axis};
+  const lang::Group& row = group(origin);
+  if (row.kind == lang::GroupKind::inside) return {};
+  const lang::AxisStatements& axis = row.axes[static_cast<std::size_t>(found->axis)];
+  std::string words = "`" + axis.name + "`";
+  if (row.kind == lang::GroupKind::axes && row.move != row.in)
+    words += " of `" + frame_name(row.move) + "` in `" + frame_name(row.in) + "`";
+  if (!axis.driver) return words + " is driven by no row";
+  const bool is_rate = *axis.driver == solver::Quantity::velocity;
+  const bool is_of_rate = found->what == lang::CoordinateQuantity::velocity;
+  const bool is_of_position = found->what == lang::CoordinateQuantity::position;
+  const bool is_comparable =
+      is_rate ? is_of_rate || is_of_position : is_of_position && *axis.driver == solver::Quantity::position;
+  if (axis.here || axis.yield || !is_comparable) return {};
+  return words + " is driven to " +
+         with_unit(axis.target.evaluate(parameters), unit + (is_rate && is_of_position ? "/s" : ""));
+}
+
+/// How each comparison that holds the exit back went on while the task waited.
+void Scheduler::Parts::follow_course(const TaskSnapshot& now, int owner, std::size_t exit,
+                                     WaitedExit& waited) const {
+  const GuardedExits& of = guarded[static_cast<std::size_t>(owner)];
+  const lang::Condition& condition = of.exits[exit].when;
+  for (std::size_t t = 0; t < condition.terms.size(); ++t) {
+    WaitedTerm& term = waited.terms[t];
+    const auto same = [&](const Compared& one) {
+      return one.exit == exit && one.node == condition.terms[t].node;
+    };
+    const auto compared = std::ranges::find_if(of.compared, same);
+    if (!term.holds_back || compared == of.compared.end()) continue;
+    const bool is_turned = term.verdict == Verdict::yes;
+    const double lack = lack_of(*compared, now.exits[exit].values) * (is_turned ? -1.0 : 1.0);
+    const auto index = static_cast<std::size_t>(compared - of.compared.begin());
+    const Trend trend = now.course.trend(index, lack, is_turned, period);
+    term.left = trend.left;
+    term.stood = trend.stood;
+    term.stood_throughout = trend.is_whole;
+    term.recedes = trend.grows;
+    if (trend.stood > 0.0) term.asked = asked_of(condition, *compared, term.unit, owner);
+  }
+}
+
 WaitedTask Scheduler::waited(int task) const {
   const Parts& p = *parts_;
   const lang::Task& of = p.tasks[task];
@@ -206,6 +266,8 @@ WaitedTask Scheduler::waited(int task) const {
                              : exit.target.kind != lang::TargetKind::failed;
     one.true_for = now.exits[i].true_for;
     one.longest = now.exits[i].longest;
+    one.times = now.exits[i].times;
+    p.follow_course(now, task, i, one);
     one.needed = exit.dwell.evaluate(p.parameters);
   }
   return waited;

@@ -145,6 +145,25 @@ const [{content: scene}] = shown.get('/scene');
 const frames = new Set(['world', ...[moves[0], shown.get('/tf_static')[0]].flatMap(({content}) => content.transforms.map((one) => one.child_frame_id))]);
 assert.ok(scene.entities.length > 4);
 for (const entity of scene.entities) assert.ok(frames.has(entity.frame_id), entity.frame_id);
+// A force is an arrow at the face of the wall, as long as the page draws it, while the plant measures it.
+const faceOfWall = 0.05;  // [m] that a corner of the base may lie off the face
+const pressed = shown.get('/forces');
+assert.ok(pressed.length > 50, `${pressed.length} messages of forces`);
+for (const {content, time, tick} of pressed) {
+  assert.equal(content.deletions.length, 1, 'arrows of before are gone');
+  assert.equal(content.entities.length, tick['truth.wall.force'] > 0 ? 1 : 0);
+  for (const {arrows: [arrow], lifetime, timestamp} of content.entities) {
+    assert.equal(BigInt(timestamp.sec) * 1000000000n + BigInt(timestamp.nsec), time);
+    assert.deepEqual(lifetime, {sec: 0, nsec: 0}, 'until the next message');
+    const length = arrow.shaft_length + arrow.head_length;
+    assert.ok(Math.abs(length - 0.25 * Math.log10(1 + 2 * tick['truth.wall.force'])) < 1e-9, `${length} m`);
+    // The wall looks along -x: so does the force on the robot.
+    const {x, y, z, w} = arrow.pose.orientation;
+    assert.ok(Math.abs(1 - 2 * (y * y + z * z) + 1) < 1e-6 && Math.abs(x) + Math.abs(w) < 1e-3, 'along -x');
+    const {x: at} = arrow.pose.position;
+    assert.ok(Math.abs(at - wallFace) < faceOfWall, `${at} m`);
+  }
+}
 const told = shown.get('/log').map(({content}) => content.message);
 for (const {from, to} of run.transitions.filter((one) => one.from)) assert.ok(told.includes(`${from} -> ${to}`), `${from} -> ${to}`);
 assert.equal(told.at(-1), run.verdict);

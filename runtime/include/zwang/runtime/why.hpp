@@ -35,6 +35,12 @@ struct WaitedTerm {
   std::string unit;
   std::vector<WaitedSignal> signals;  ///< that are not known, and make the term unknown or `valid()` false
   std::string because;                ///< of an unknown that hangs on no signal
+  std::optional<double>
+      left;            ///< [s] until it is as wanted, at its pace of late; none: it does not come nearer
+  double stood = 0.0;  ///< [s] for so long its value has been what it is, to a hundredth of what it misses
+  bool stood_throughout = false;  ///< since the task was entered
+  bool recedes = false;           ///< the value goes away from what is wanted
+  std::string asked;  ///< of a coordinate that stood: what drives it, in words; empty: no coordinate
 };
 
 /// An exit, or a `require`, with the last values of its terms.
@@ -47,6 +53,7 @@ struct WaitedExit {
   Verdict verdict = Verdict::unknown;
   double true_for = 0.0;  ///< [s] without a break, until now
   double longest = 0.0;   ///< [s] the longest of them since the task was entered
+  int times = 0;          ///< that it became true since then
   double needed = 0.0;    ///< [s] its `for`
   std::vector<WaitedTerm> terms;
 };
