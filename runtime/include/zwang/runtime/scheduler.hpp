@@ -1,4 +1,5 @@
-/// Which task is active, which constraints are in force, and how they fade: steps 2 to 7 of the control tick.
+/// Which task is active, which constraints are in force, and how they fade: steps 5 to 8 of the
+/// control tick (runtime/README.md).
 #pragma once
 
 #include <cstdint>
