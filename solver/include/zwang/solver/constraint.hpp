@@ -23,6 +23,7 @@ enum class Axis { x, y, z, rx, ry, rz };
 /// Which of an axis's four quantities a statement speaks of.
 enum class Quantity { position, velocity, acceleration, force };
 
+/// Both ends belong to it. The unit is that of the bounded quantity.
 struct Range {
   double low = -infinity;
   double high = infinity;
@@ -124,8 +125,8 @@ enum class RowKind {
 struct Row {
   RowKind kind = RowKind::driver;
   Quantity quantity = Quantity::velocity;  ///< of the statement that made the row
-  int constraint = -1;                     ///< index of that constraint
-  int body = 0;
+  int constraint = -1;                     ///< index of that constraint in its set
+  int body = 0;                            ///< of the model, on which `a` acts
   ForceVector
       a;  ///< unit constraint force on `body`, in its coordinates and about its origin: a column of A_N
   int reference_body = -1;  ///< the row measures motion relative to this body; -1 for the world
@@ -135,7 +136,7 @@ struct Row {
   double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
   double hi = infinity;
   double weight = infinity;  ///< w [kg] or [kg m^2] of a motion row, above 0; softness R = 1/w
-  int level = 1;
+  int level = 1;             ///< from 0 on; a lower number goes first
 };
 
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
@@ -148,13 +149,17 @@ class ZWANG_EXPORT ConstraintSet {
   void clear() noexcept;
   bool add(const AxisConstraint& constraint) noexcept;  ///< false when full
   const std::vector<AxisConstraint>& constraints() const noexcept { return constraints_; }
+  /// `i`: from 0 to the number of constraints less 1; not checked.
   AxisConstraint& operator[](int i) noexcept { return constraints_[static_cast<std::size_t>(i)]; }
 
-  /// Computes every coordinate and row. False when the rows exceed the capacity.
+  /// Computes every coordinate and row. The state is sized for the model. False when the rows exceed the
+  /// capacity: the rows are then a part.
   bool fill(const Model& model, const State& state) noexcept;
   /// The same at the state that `motions` knows the bodies of.
   bool fill(BodyMotions& motions) noexcept;
+  /// One for each constraint, in their order, as filled last.
   const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
+  /// In the order of the constraints, as filled last: for Solver::solve.
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
  private:
@@ -181,6 +186,7 @@ ZWANG_EXPORT Coordinate coordinate_of(const AttachedFrame& move, const AttachedF
 /// The present motion along the measure of a constraint.
 ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model,
                                       const State& state) noexcept;
+/// The same at the state that `motions` knows the bodies of.
 ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
 
 /// Of `move` along `axis` of `in`, nothing but the position. [m] or [rad]

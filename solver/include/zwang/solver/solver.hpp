@@ -50,11 +50,13 @@ struct RowSet {
   double share = 1.0;
 };
 
+/// Sized for a model by its constructor, which throws std::invalid_argument on a capacity below 1.
 struct ZWANG_EXPORT Solution {
   explicit Solution(const Model& model, int row_capacity = 64);
 
-  Eigen::VectorXd tau;  ///< torque to command [N m] or [N], feed-forward included; 0 where there is no motor
-  Eigen::VectorXd qdd;  ///< [rad/s^2] or [m/s^2]
+  /// Torque to command [N m] or [N], one entry a joint, feed-forward included; 0 where there is no motor.
+  Eigen::VectorXd tau;
+  Eigen::VectorXd qdd;                     ///< [rad/s^2] or [m/s^2], one entry a joint
   std::vector<MotionVector> acceleration;  ///< spatial acceleration of each body, in body coordinates
   std::vector<RowSolution> rows;  ///< parallel to the rows of the first set, then to those of the next ones
   int mobility = 0;               ///< freedoms that the ground leaves
@@ -67,8 +69,8 @@ struct ZWANG_EXPORT FreeMotions {
   explicit FreeMotions(const Model& model);
 
   int count = 0;          ///< the mobility; of each matrix the first columns
-  Eigen::MatrixXd joint;  ///< T: acceleration of the joints = T ydd
-  Eigen::MatrixXd base;   ///< B: of the base along its own x, y and about its own z = B ydd
+  Eigen::MatrixXd joint;  ///< T, a line a joint: acceleration of the joints = T ydd
+  Eigen::MatrixXd base;   ///< B, three lines: of the base along its own x, y and about its own z = B ydd
 
   /// Of the solver that wrote them: they stay while no mass of the robot moves in the base's axes.
   std::uint64_t factorisation = 0;
@@ -117,13 +119,13 @@ class ZWANG_EXPORT Solver {
   bool free_motions(FreeMotions& out) const noexcept;
 
   /// Writes a unit force along row `row` of Solution::rows, as the p of FreeMotions, into the first numbers
-  /// of `p`. They are 0 where nothing moves the robot along the row. Call it before the next
-  /// `project_velocity`. Does not allocate, lock, throw or print.
+  /// of `p`, as many as the mobility. They are 0 where nothing moves the robot along the row. `p` has room
+  /// for 6 + joints. Call it before the next `project_velocity`. Does not allocate, lock, throw or print.
   void force_on_motions(int row, Eigen::VectorXd& p) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
   /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the
-  /// rows.
+  /// rows. On any status but `ok` the state is untouched. Does not allocate, lock, throw or print.
   [[nodiscard]] Status project_velocity(State& state) noexcept;
 
  private:

@@ -26,7 +26,7 @@ class ZWANG_EXPORT WheelOdometry {
  public:
   explicit WheelOdometry(const Model& model);
 
-  /// Reads q and qd of the state only. Does not allocate, lock, throw or print.
+  /// Reads q and qd of the state only, which is sized for the model. Does not allocate, lock, throw or print.
   WheelTwist twist(const State& state) const noexcept;
 
  private:
