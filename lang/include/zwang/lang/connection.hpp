@@ -149,12 +149,12 @@ struct Connection {
 /// Whether ROS 2 takes it as an absolute topic name.
 ZWANG_EXPORT bool is_topic_name(std::string_view name);
 
-/// Reads and checks a connection file by itself.
+/// Reads and checks a connection file by itself. On any error nullopt, and the diagnostics say why.
 ZWANG_EXPORT std::optional<Connection> load_connection(const std::filesystem::path& path,
                                                        Diagnostics& diagnostics);
 
-/// Whether the connection gives a program all that it reads, and takes what its drive sends: E301, E922,
-/// E923.
+/// Whether the connection gives a program all that it reads, and takes what its drive sends. If not, the
+/// diagnostics say why: E301, E922, E923.
 ZWANG_EXPORT bool check_connection(const Connection& connection, const Program& program,
                                    Diagnostics& diagnostics);
 

@@ -46,8 +46,10 @@ struct Silenced {
 
 class ZWANG_EXPORT Diagnostics {
  public:
+  /// The index of the source, for Span::source.
   int add_source(Source source);
   const std::vector<Source>& sources() const { return sources_; }
+  /// Throws std::out_of_range if there is no such source.
   const Source& source(int index) const { return sources_.at(static_cast<std::size_t>(index)); }
 
   void add(Diagnostic diagnostic);

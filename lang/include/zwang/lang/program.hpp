@@ -225,12 +225,12 @@ struct Group {
   int path = -1;  ///< of axes: the path that they are measured along, in its frame `in`; -1: those of `in`
   std::vector<AxisStatements> axes;
   GroupKind kind = GroupKind::axes;
-  int region = -1;
+  int region = -1;               ///< of `inside`: index into Program::regions
   bool moves_footprint = false;  ///< of `inside`: the robot's whole footprint rather than the point `move`
   Value margin;                  ///< [m] of `inside`
   Value return_speed{.constant = default_return_speed};  ///< [m/s] of `inside`: of the way back into it
   int level = 1;                                         ///< of `inside`
-  int feature = -1;
+  int feature = -1;                                      ///< index into Program::features; -1: none
   Span span;
 };
 
@@ -238,7 +238,7 @@ enum class TargetKind { task, back, done, failed };
 
 struct Target {
   TargetKind kind = TargetKind::done;
-  int task = -1;
+  int task = -1;  ///< index into Program::tasks; -1: none
 };
 
 enum class SetKind { frame, parameter, output };
@@ -247,9 +247,9 @@ enum class SetKind { frame, parameter, output };
 /// N}` and `set: {outputs.gripper: true}` give a value.
 struct SetAction {
   SetKind kind = SetKind::frame;
-  int index = -1;   ///< what is set
+  int index = -1;   ///< what is set: index into the program's frames, parameters or outputs
   int source = -1;  ///< frame
-  Value value;
+  Value value;      ///< of a parameter or an output
   Span span;
 };
 
@@ -311,8 +311,9 @@ struct Program {
   std::vector<Path> paths;
   Always always;
   std::vector<Task> tasks;
-  int start = 0;
+  int start = 0;  ///< index into `tasks`
 
+  /// The declared values, SI, parallel to `parameters`.
   std::vector<double> parameter_values() const {
     std::vector<double> values;
     for (const Parameter& p : parameters) values.push_back(p.value);

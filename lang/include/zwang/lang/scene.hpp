@@ -19,9 +19,9 @@ struct Program;
 
 /// Where a scripted object stands at a time; between two of them it moves straight and evenly.
 struct Waypoint {
-  double time = 0.0;  ///< [s]
-  std::array<double, 2> at{};
-  double yaw = 0.0;
+  double time = 0.0;           ///< [s]
+  std::array<double, 2> at{};  ///< [m] world
+  double yaw = 0.0;            ///< [rad]
 };
 
 /// A socket in which a hook latches.
@@ -169,11 +169,11 @@ struct Fault {
   FaultKind kind = FaultKind::samples_lost;
   double at = 0.0;                                            ///< [s]
   double duration = std::numeric_limits<double>::infinity();  ///< [s]
-  std::string joint;
+  std::string joint;                                          ///< of a motor or a wheel; empty: of none
   Span joint_span{};
   std::string robot;  ///< whose: one of Scene::robots; empty: the first one's, or the world's
   Span robot_span{};
-  double value = 0.0;
+  double value = 0.0;  ///< of the kinds that have one, in the unit that FaultKind names
   Span span;
 };
 
@@ -217,14 +217,15 @@ struct SceneRobot {
   Span span;
 };
 
+/// Beside the first robot.
 inline constexpr std::size_t most_scene_robots = 4;
 
 struct Scene {
   std::string path;                  ///< as it was opened
   std::array<double, 2> start_at{};  ///< [m] world
   double start_yaw = 0.0;            ///< [rad]
-  double floor_friction = 0.9;
-  bool real_rollers = false;  ///< mecanum and omni wheels are built roller by roller
+  double floor_friction = 0.9;       ///< Coulomb coefficient
+  bool real_rollers = false;         ///< mecanum and omni wheels are built roller by roller
   Span real_rollers_span;
   std::vector<SceneObject> objects;
   std::vector<SceneRobot> robots;  ///< beside the first one
@@ -238,6 +239,8 @@ struct Scene {
   int seen_robot(int robot) const { return static_cast<int>(objects.size()) + 1 + robot; }
 };
 
+/// Reads and checks a scene file by itself, and the task files of its other robots. On any error nullopt, and
+/// the diagnostics say why.
 ZWANG_EXPORT std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -20,7 +20,7 @@ struct PlannedRow {
   lang::Span span;                 ///< of the statement; none: it has no text
   std::optional<double> weight;    ///< [kg] or [kg m^2]
   std::optional<double> fraction;  ///< of b that a soft row meets
-  bool turns = false;
+  bool turns = false;              ///< measured in rad rather than in m
 };
 
 /// The smallest and the largest over the configurations; values that are not finite do not count.
@@ -37,10 +37,10 @@ struct Spread {
 
 struct PlannedAxis {
   std::string name;
-  bool turns = false;
-  solver::AxisAnalysis analysis;  ///< at the start pose
-  Spread mass, force;             ///< where the joints let it move
-  bool is_sometimes_held = false;
+  bool turns = false;              ///< measured in rad rather than in m
+  solver::AxisAnalysis analysis;   ///< at the start pose
+  Spread mass, force;              ///< [kg], [N] or [kg m^2], [N m], where the joints let it move
+  bool is_sometimes_held = false;  ///< in one of the configurations the ground holds it
 };
 
 /// A statement that has no row at the start pose.

@@ -70,7 +70,8 @@ struct RecorderStatus {
 class ZWANG_EXPORT Recorder {
  public:
   /// Opens the sinks and starts the writer. A sink that cannot be opened, or throws, is reported by `status`,
-  /// not thrown; the others go on. Throws std::invalid_argument without sinks, columns or capacity.
+  /// not thrown; the others go on. `capacity`: records that the ring holds. Throws std::invalid_argument
+  /// without sinks, columns or capacity.
   Recorder(std::vector<std::unique_ptr<LogSink>> sinks, std::vector<Column> columns,
            std::size_t capacity = 8192);
   /// Into one CSV file.

@@ -94,8 +94,10 @@ class ZWANG_EXPORT Runner {
   Runner(Runner&&) noexcept;
   Runner& operator=(Runner&&) noexcept;
 
-  /// The torques to send for this sample [N m] or [N]; always finite and within the joints' limits. Goes on
-  /// braking and holding after the run is over. Does not allocate, lock, throw or print.
+  /// The torques to send for this sample [N m] or [N], one entry a joint; always finite and within the
+  /// joints' limits. A state of another size latches the stop (`bad_sample`). `extra` has a value for each
+  /// of `extra_columns`. Goes on braking and holding after the run is over. Does not allocate, lock, throw or
+  /// print.
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
   /// The command of that step to a drive of any kind, for Plant::follow. A drive that takes velocities needs
   /// it.
@@ -133,14 +135,14 @@ class ZWANG_EXPORT Runner {
   /// The columns of a log of this run. A recorder made with them may be attached before the first step; it
   /// must outlive the runner.
   std::vector<Column> columns() const;
-  void record_to(Recorder* recorder) noexcept;
+  void record_to(Recorder* recorder) noexcept;  ///< nullptr: no log
 
   const Scheduler& scheduler() const noexcept;
   const SafetyGuard& guard() const noexcept;
-  SafetyGuard& guard() noexcept;
-  const solver::Solution& solution() const noexcept;
-  GuardStatus guard_status() const noexcept;      ///< of the last step
-  solver::Status solver_status() const noexcept;  ///< of the last step that got to the solver
+  SafetyGuard& guard() noexcept;                      ///< for `stop` and `reset`, between two steps
+  const solver::Solution& solution() const noexcept;  ///< of the last step that solved; sets in their order
+  GuardStatus guard_status() const noexcept;          ///< of the last step
+  solver::Status solver_status() const noexcept;      ///< of the last step that got to the solver
 
   const std::vector<Transition>& transitions() const noexcept;  ///< the first 1024
   std::uint64_t transition_count() const noexcept;

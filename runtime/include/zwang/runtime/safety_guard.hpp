@@ -40,13 +40,13 @@ struct GuardSettings {
 };
 
 struct GuardCounters {
-  std::uint64_t samples = 0;
-  std::uint64_t refused_values = 0;
-  std::uint64_t refused_clock = 0;
-  std::uint64_t frozen = 0;
-  std::uint64_t bad_torques = 0;
-  std::uint64_t limited = 0;
-  std::uint64_t slewed = 0;
+  std::uint64_t samples = 0;         ///< that came to `admit`
+  std::uint64_t refused_values = 0;  ///< `not_finite`
+  std::uint64_t refused_clock = 0;   ///< `bad_clock` or `untimely`
+  std::uint64_t frozen = 0;          ///< samples
+  std::uint64_t bad_torques = 0;     ///< calls of `output` without one finite torque a joint
+  std::uint64_t limited = 0;         ///< calls of `output` that cut a torque to its limit
+  std::uint64_t slewed = 0;          ///< calls that cut a torque's rate
 };
 
 class ArmHold;

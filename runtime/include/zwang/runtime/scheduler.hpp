@@ -155,16 +155,18 @@ class ZWANG_EXPORT Scheduler {
   Phase phase() const noexcept;
   Outcome outcome() const noexcept;  ///< none until `done` or `failed` is reached
   bool has_stood() const noexcept;   ///< in phase `finished`: the base was seen to stand
-  int task() const noexcept;
+  int task() const noexcept;         ///< the active one, an index into `tasks()`; -1 before the first tick
   /// [s] since the task was entered, interruptions left out.
   double elapsed() const noexcept;
+  /// Zeros where the active task and `always` have no such statement.
   AxisReading reading(const Origin& origin) const noexcept;
   /// How long the condition of the active task's exit has been true without a break. [s]
   double dwell(int exit) const noexcept;
   double always_dwell(int exit) const noexcept;  ///< dwell of an exit of `always` [s]
+  /// The present values, SI, in the order of Program::parameters.
   const std::vector<double>& parameters() const noexcept;
-  /// Sets a parameter from outside, between two ticks; constraints follow on the next one. False, and nothing
-  /// happens, for an index or a value outside its range or a value that is not finite.
+  /// Sets a parameter [SI] from outside, between two ticks; constraints follow on the next one. False, and
+  /// nothing happens, for an index or a value outside its range or a value that is not finite.
   bool set_parameter(int index, double value) noexcept;
 
   // Signals, as of the last tick, parallel to the program's.
