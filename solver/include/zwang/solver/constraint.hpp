@@ -55,7 +55,7 @@ struct Driver {
   double target = 0.0;               ///< c, v, p or f
   double target_rate = 0.0;          ///< dp, or dv for a velocity driver
   double target_acceleration = 0.0;  ///< ddp
-  double time_constant = 0.5;        ///< tau [s]
+  double time_constant = 0.5;        ///< T [s]
   Range force;                       ///< bounds of the row's multiplier [N] or [N m]
   /// A position driver with a stiffness or a damping is a spring: a force row. Its force is
   /// f = k (p - s) + d (dp - ds), inside the range `force`. [N/m, N s/m] or [N m/rad, N m s/rad]
