@@ -30,11 +30,13 @@ struct Value {
   }
 };
 
+/// Both ends of a range; they may be parameters.
 struct ValueRange {
   Value low;
   Value high;
 };
 
+/// A value of the task file that can be set before and during a run.
 struct Parameter {
   std::string name;
   double value = 0.0;                  ///< SI
@@ -45,6 +47,7 @@ struct Parameter {
   Span span;
 };
 
+/// The kind of thing that a frame hangs on.
 enum class FrameParent { world, body, frame, signal };
 
 /// Frame 0 is the world, then follow the frames of the robot, then the declared ones (parents before
@@ -119,6 +122,7 @@ struct Feature {
   Span span;
 };
 
+/// The operation of a node of a condition.
 enum class Op {
   constant,          ///< `number`
   parameter,         ///< `index`
@@ -147,6 +151,7 @@ enum class Op {
   logical_not,
 };
 
+/// The value of an axis that a condition asks for. SI
 enum class CoordinateQuantity { position, velocity, force, residual, saturated };
 
 /// A node of an expression tree. Operands stand before it in the list: `left`, `right` are their indices.
@@ -218,6 +223,7 @@ enum class GroupKind {
   feature  ///< statements about `feature`: one entry of `axes`, whose `axis` means nothing
 };
 
+/// The statements about one moved frame.
 struct Group {
   std::string name;
   int move = 0;   ///< frame
@@ -236,6 +242,7 @@ struct Group {
 
 enum class TargetKind { task, back, done, failed };
 
+/// The end of an exit, of a timeout or of attempts.
 struct Target {
   TargetKind kind = TargetKind::done;
   int task = -1;  ///< index into Program::tasks; -1: none
@@ -253,6 +260,7 @@ struct SetAction {
   Span span;
 };
 
+/// A condition, and the target of the run once it has held for `dwell`.
 struct Exit {
   Condition when;
   Value dwell;                   ///< `for` [s]
@@ -263,6 +271,7 @@ struct Exit {
   Span span;
 };
 
+/// The target of the run once the task has lasted for `after`.
 struct Timeout {
   Value after;  ///< [s]
   Target target;
@@ -284,6 +293,7 @@ struct Always {
   std::vector<Exit> exits;
 };
 
+/// Groups with exits, and the actions on entry.
 struct Task {
   std::string name;
   std::string about;
@@ -297,6 +307,7 @@ struct Task {
   Span span;
 };
 
+/// A whole checked task file. Indices count from 0, in the lists of this struct.
 struct Program {
   std::string path;
   std::string about;

@@ -112,6 +112,7 @@ struct Drive {
 inline constexpr double slowest_drive_rate = 20.0;    ///< [1/s]
 inline constexpr double longest_drive_delay = 50e-3;  ///< [s]
 
+/// A checked robot file with its model. SI; vectors by joint are parallel to the joints of the model.
 struct Robot {
   std::string name;
   solver::Model model;

@@ -35,6 +35,7 @@ struct ScenarioCell {
   std::map<std::string, Span> spans;  ///< where `robot`, `scene`, `params.NAME` are written
 };
 
+/// A checked scenario file: one cell for each combination of its matrix.
 struct Scenario {
   std::string path;
   std::string about;
@@ -45,6 +46,7 @@ struct Scenario {
   std::vector<ScenarioCell> cells;
 };
 
+/// The time at which an expectation is judged.
 enum class ExpectationKind {
   outcome,     ///< the run ends with `word`
   diagnostic,  ///< the task is refused, and `word` is among the reasons
@@ -95,6 +97,7 @@ enum TruthOfBase {
   run_slipped,         ///< [s] when slip was told first
   truth_base_count
 };
+/// Values of one object.
 enum TruthOfObject {
   truth_force,     ///< [N] that the first robot's body presses on it with
   truth_peak,      ///< [N] the largest so far

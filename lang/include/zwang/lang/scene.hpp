@@ -52,6 +52,7 @@ struct Guide {
   bool locked = false;                        ///< nothing moves it
 };
 
+/// An object that the robot can meet.
 struct SceneObject {
   std::string name;
   ShapeKind shape = ShapeKind::wall;
@@ -88,6 +89,7 @@ struct SceneObject {
   double slides_on(double floor) const { return slides.value_or(std::min(friction.value_or(floor), floor)); }
 };
 
+/// One value of a script, from its time on.
 struct ScriptStep {
   double time = 0.0;   ///< [s] from here on
   double value = 0.0;  ///< SI; 0 and 1 of a bool
@@ -101,6 +103,7 @@ enum class ScriptKind {
   number
 };
 
+/// The quantity that a signal of the scene measures.
 enum class SceneSignalKind {
   script,    ///< a bool or a number
   pose,      ///< of the object or robot, in the frame that the task file's signal is seen from
@@ -146,6 +149,7 @@ struct StateNoise {
   std::optional<SceneSignal> fix;
 };
 
+/// The kind of a fault.
 enum class FaultKind {
   samples_lost,     ///< no sample arrives
   samples_nan,      ///< an entry of the state is not a number
@@ -165,6 +169,7 @@ enum class FaultKind {
   plant_diverges,   ///< the simulation leaves the finite numbers
 };
 
+/// A fault that begins at a time.
 struct Fault {
   FaultKind kind = FaultKind::samples_lost;
   double at = 0.0;                                            ///< [s]
@@ -220,6 +225,7 @@ struct SceneRobot {
 /// Beside the first robot.
 inline constexpr std::size_t most_scene_robots = 4;
 
+/// A checked scene file.
 struct Scene {
   std::string path;                  ///< as it was opened
   std::array<double, 2> start_at{};  ///< [m] world

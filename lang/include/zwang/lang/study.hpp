@@ -17,6 +17,7 @@ namespace zwang::lang {
 
 struct ScenarioFile;
 
+/// The kind of a distribution.
 enum class Spread { uniform, log_uniform, normal, choice };
 
 /// How a drawn value is spread.
@@ -41,6 +42,7 @@ struct Draw {
 
 inline constexpr std::size_t most_cells_of_a_study = 10'000'000;
 
+/// The way in which the cells fill the range of the draws.
 enum class Sequence { random, halton };
 
 /// How often an expectation must hold. Without a probability each cell must.
@@ -51,6 +53,7 @@ struct Claim {
   Span span;
 };
 
+/// A checked study file.
 struct Study {
   std::string path;
   std::string about;

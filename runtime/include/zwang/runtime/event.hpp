@@ -10,6 +10,7 @@
 
 namespace zwang::runtime {
 
+/// The kind of an event. The codes from `bad_sample` to `frozen_base` latch the protective stop.
 enum class EventCode {
   none,
   // These codes latch the protective stop.
@@ -61,6 +62,7 @@ inline constexpr bool latches_the_stop(EventCode code) {
   return code > EventCode::none && code < EventCode::clock_refused;
 }
 
+/// One event: its code, its time, and the signal that showed it.
 struct Event {
   EventCode code = EventCode::none;
   /// [s] of the sample; where it has no good time, when it was due. After a clock that went back it goes on

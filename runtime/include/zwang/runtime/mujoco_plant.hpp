@@ -68,6 +68,7 @@ struct RobotTruth {
   BaseTruth base;
 };
 
+/// All measurements of the simulator at one instant. The controller never sees them.
 struct Truth {
   double time = 0.0;         ///< [s]
   double x = 0.0, y = 0.0;   ///< [m] base frame in the world

@@ -14,6 +14,7 @@
 
 namespace zwang::runtime {
 
+/// One row of a task as the solver gets it.
 struct PlannedRow {
   solver::Row row;
   std::string name;                ///< "contact.x"
@@ -35,6 +36,7 @@ struct Spread {
   bool is_one_number() const { return most - least <= 1e-3 * std::abs(most); }
 };
 
+/// The mass and the forces of the robot along one axis.
 struct PlannedAxis {
   std::string name;
   bool turns = false;              ///< measured in rad rather than in m
@@ -49,6 +51,7 @@ struct DormantRow {
   lang::Span span;
 };
 
+/// The rows and axes of one task.
 struct TaskPlan {
   std::string task;
   std::string refused;  ///< why there are no rows; empty otherwise

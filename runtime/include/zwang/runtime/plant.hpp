@@ -73,6 +73,7 @@ struct Sensed {
   std::vector<SignalSample> signals;
 };
 
+/// The answer of the robot.
 enum class PlantStatus {
   ok,
   diverged,    ///< the simulation reset itself, warned or left the finite numbers: the run is void

@@ -23,6 +23,7 @@
 
 namespace zwang::runtime {
 
+/// The state of a run.
 enum class RunState {
   running,
   done,
@@ -67,6 +68,7 @@ enum class SwapRefusal {
 };
 const char* describe(SwapRefusal refusal) noexcept;  ///< a sentence without its end
 
+/// The result of a swap.
 struct SwapResult {
   SwapRefusal refusal = SwapRefusal::none;
   const char* signal = "";  ///< its name, where the refusal is about one; as long as the next runner lives
@@ -75,6 +77,7 @@ struct SwapResult {
 /// The sentence with the signal's name. Allocates.
 ZWANG_EXPORT std::string describe(const SwapResult& result);
 
+/// Settings by the host; without them the robot file counts.
 struct RunnerSettings {
   /// [s] between steps, 0.1 to 10 ms; where none is given, the robot file's `control_period`.
   std::optional<double> period;

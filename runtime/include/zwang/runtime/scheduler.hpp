@@ -18,15 +18,18 @@
 
 namespace zwang::runtime {
 
+/// The phase of a run: tasks, brake, rest.
 enum class Phase {
   running,
   stopping,  ///< `done` or `failed` was reached; the base brakes
   finished,  ///< the base stands; the brake's rows stay in force and hold it
 };
 
+/// The end that the tasks have reached.
 enum class Outcome { none, done, failed };
 ZWANG_EXPORT const char* to_string(Outcome outcome) noexcept;
 
+/// The reason of a transition.
 enum class Cause {
   start,        ///< the program's start task
   always,       ///< one of the exits of `always`

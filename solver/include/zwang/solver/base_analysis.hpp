@@ -21,6 +21,7 @@ struct AxisAnalysis {
       0.0;  ///< that the motors can make along it, exactly and with nothing beside it [N] or [N m]
 };
 
+/// The capabilities of a base at one state.
 struct BaseAnalysis {
   int mobility = 0;         ///< freedoms of base and joints that the ground leaves
   int base_mobility = 0;    ///< of them, motions of the base: 3 for an omnidirectional one

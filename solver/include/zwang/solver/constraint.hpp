@@ -18,6 +18,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double limit_horizon =
     0.010;  ///< h [s], within which limits act, of torques that come as often
 
+/// An axis of a frame: along x, y, z, or about them.
 enum class Axis { x, y, z, rx, ry, rz };
 
 /// Which of an axis's four quantities a statement speaks of.
@@ -114,6 +115,7 @@ struct Coordinate {
   double acceleration_bias = 0.0;  ///< gamma: dds = a . (A_k - A_c) + gamma
 };
 
+/// The kind of a row.
 enum class RowKind {
   driver,  ///< equality with a bounded multiplier
   upper,   ///< a . Xdd <= b, nu <= 0
@@ -122,6 +124,7 @@ enum class RowKind {
   sum,     ///< no force of its own: lo and hi bound what all rows of its level and below press with along a
 };
 
+/// One row of the bounded problem, on spatial accelerations.
 struct Row {
   RowKind kind = RowKind::driver;
   Quantity quantity = Quantity::velocity;  ///< of the statement that made the row

@@ -12,6 +12,7 @@
 
 namespace zwang::solver {
 
+/// The motion of a joint. `continuous` turns without end.
 enum class JointType { fixed, revolute, continuous, prismatic };
 
 /// A joint of one freedom between a body and its parent.

@@ -14,6 +14,7 @@
 
 namespace zwang::solver {
 
+/// The result of a call.
 enum class Status {
   ok,
   invalid_input,      ///< a non-finite number in the state or a row; outputs untouched
@@ -24,6 +25,7 @@ enum class Status {
 };
 ZWANG_EXPORT const char* to_string(Status status) noexcept;
 
+/// The result of a row in one word.
 enum class RowStatus {
   held,            ///< the acceleration meets b (or a one-sided row is met)
   force_limited,   ///< nu at its bound, or a sum that it adds to, as intended
@@ -34,6 +36,7 @@ enum class RowStatus {
 };
 ZWANG_EXPORT const char* to_string(RowStatus status) noexcept;
 
+/// The answer to one row.
 struct RowSolution {
   double nu = 0.0;   ///< the row's constraint force on the robot [N] or [N m]; phi f of a force row; of a sum
                      ///< its value
@@ -76,6 +79,7 @@ struct ZWANG_EXPORT FreeMotions {
   std::uint64_t factorisation = 0;
 };
 
+/// Sizes and options, fixed at construction.
 struct Settings {
   int row_capacity = 64;     ///< of all sets together
   int set_capacity = 0;      ///< of the rows of one set; 0: the same

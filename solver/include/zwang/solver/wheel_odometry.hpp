@@ -10,6 +10,7 @@
 
 namespace zwang::solver {
 
+/// The twist of the base by its wheels, and their contradiction.
 struct WheelTwist {
   MotionVector
       twist;     ///< planar, of the base, in base coordinates and at its origin; 0 along what no wheel tells
