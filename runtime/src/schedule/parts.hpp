@@ -1,5 +1,6 @@
 /// The parts of a scheduler. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
-/// tick_rows, tick_return, tick_sides, tick_paths.
+/// tick_rows, tick_drivers, tick_return, tick_sides, tick_paths. The numbers are those of the table in
+/// runtime/README.md.
 #pragma once
 
 #include <array>
@@ -85,7 +86,7 @@ struct Scheduler::Parts final : Facts {
   Parts(const lang::Program& given, double control_period);
   void follow(const lang::Condition& condition);
 
-  // Steps 1 to 3: the snapshot, stale signals, frames, and what conditions ask about.
+  // Step 5: the snapshot, stale signals, frames, and what conditions ask about.
   void sense(const Sensed& sensed) noexcept;
   Fact look_up(const lang::ExpressionNode& node, int owner) const noexcept override;
   Fact coordinate(const lang::ExpressionNode& node, int owner) const noexcept;
@@ -109,7 +110,7 @@ struct Scheduler::Parts final : Facts {
   void follow_paths(int owner, bool enters) noexcept;
   void measure_along(const lang::Group& group, solver::AxisConstraint& c) const noexcept;
 
-  // Steps 4 and 5: guards, and at most one transition.
+  // Steps 5 and 6: guards, and at most one transition.
   struct Choice {
     Transition transition;
     lang::Target target;
@@ -125,7 +126,7 @@ struct Scheduler::Parts final : Facts {
   bool is_timed_out() const noexcept;
   void check_rest() noexcept;
 
-  // Step 6: the switch, `set`, and every `here`.
+  // Step 7: the switch, `set`, and every `here`.
   void take(Choice choice) noexcept;
   void lead(Transition& transition, const lang::Target& target) const noexcept;
   void turn_away(Transition& transition) noexcept;
@@ -145,7 +146,7 @@ struct Scheduler::Parts final : Facts {
   int braking_direction(const lang::Group& group, const lang::AxisStatements& axis) const noexcept;
   void capture_here(ActiveAxis& a) noexcept;
 
-  // Step 7: the constraints in force.
+  // Step 8: the constraints in force.
   void track_losses() noexcept;
   void start_blend() noexcept;
   void put_constraints() noexcept;
@@ -187,7 +188,7 @@ struct Scheduler::Parts final : Facts {
   void read_row(std::size_t set, const solver::Row& row, const solver::RowSolution& answer,
                 ActiveAxis& axis) noexcept;
 
-  // Steps 7 and 8: the sides of norms, and which of them are in force.
+  // Steps 8 and 9: the sides of norms, and which of them are in force.
   void list_plane(const ActiveAxis& a) noexcept;
   void want_plane(const ActiveAxis& a) noexcept;
   bool pose_broken_sides(const solver::Solver& solver, const solver::Solution& solution) noexcept;

@@ -1,4 +1,4 @@
-// Steps 4 and 5 of the tick: guards, then at most one transition.
+// Steps 5 and 6 of the tick: guards, then at most one transition.
 #include "schedule/at_rest.hpp"
 #include "schedule/parts.hpp"
 

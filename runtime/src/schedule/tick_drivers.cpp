@@ -1,4 +1,4 @@
-// Step 7 of the tick: drivers; among them those that give way to a force, and those that add up their error.
+// Step 8 of the tick: drivers; among them those that give way to a force, and those that add up their error.
 //
 // A driver that yields asks for
 //

@@ -1,4 +1,4 @@
-// Steps 3 and 6 of the tick: where the frames of groups along a path are.
+// Steps 5 and 7 of the tick: where the frames of groups along a path are.
 #include "schedule/parts.hpp"
 
 namespace zwang::runtime {

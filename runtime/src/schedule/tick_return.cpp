@@ -1,4 +1,4 @@
-// Step 7 of the tick: the way back into a range or a region, and the constraints of a task that ends.
+// Step 8 of the tick: the way back into a range or a region, and the constraints of a task that ends.
 //
 // Outside of a position range a point of the moved frame comes back along the inward normal n with
 // min(v_brk(|d|), v_n). `return` bounds the speed of the frame's origin. Two other motions take from it. One

@@ -1,4 +1,4 @@
-// Step 7 of the tick: the constraints of the active task, of `always`, and of the tasks before while a switch
+// Step 8 of the tick: the constraints of the active task, of `always`, and of the tasks before while a switch
 // blends.
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// Steps 1 to 3 of the tick: the snapshot, what of it is stale, and what conditions may ask about.
+// Step 5 of the tick: the snapshot, what of it is stale, and what conditions may ask about.
 #include <cmath>
 #include <utility>
 

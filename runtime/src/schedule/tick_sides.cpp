@@ -1,4 +1,4 @@
-// Steps 7 and 8 of the tick: the sides of a plane's norm, and which of them are in force.
+// Steps 8 and 9 of the tick: the sides of a plane's norm, and which of them are in force.
 //
 // Two of them always are, at right angles: what the solution makes along them tells what it makes along any
 // direction n = (c, s). With the accelerations a_x and a_y, the presses S_x and S_y, and W_ij = B_i . B_j

@@ -1,4 +1,4 @@
-// Step 6 of the tick: the switch, `set`, and every `here`.
+// Step 7 of the tick: the switch, `set`, and every `here`.
 #include <algorithm>
 
 #include "schedule/braking.hpp"

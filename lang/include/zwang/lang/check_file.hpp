@@ -24,6 +24,7 @@ struct CheckOptions {
   std::optional<std::filesystem::path> task{};
 };
 
+/// Reads and checks the file with the reader of its kind. A file that cannot be read has an error, too.
 ZWANG_EXPORT FileContent check_file(FileKind kind, const std::filesystem::path& path,
                                     const CheckOptions& options, Diagnostics& diagnostics);
 

@@ -22,6 +22,7 @@ struct TextPlace {
   std::size_t word_begin = 0;     ///< [bytes] of the word that the place stands in or behind
   std::size_t value_begin = 0;    ///< [bytes] of the value, behind its opening quote
 };
+/// `offset`: bytes from the begin of `text`.
 ZWANG_EXPORT TextPlace place_at(std::string_view text, std::size_t offset);
 
 enum class ProposalKind { key, word, unit, name, function, file };

@@ -38,9 +38,11 @@ struct ConditionFunction {
   std::string_view of;                                    ///< the page's words: "of the frame's origin"
 };
 
+/// The table. ExpressionNode::function is an index into it.
 ZWANG_EXPORT std::span<const ConditionFunction> condition_functions();
 /// `abs(value), speed(frame), .. and valid(signal)`: each with the word for its argument.
 ZWANG_EXPORT std::string list_of_functions();
+/// nullptr if no function has this name.
 ZWANG_EXPORT const ConditionFunction* find_function(std::string_view name);
 /// Of a node of the kinds Op::of_frame and Op::of_task.
 ZWANG_EXPORT const ConditionFunction& function_of(const ExpressionNode& node);

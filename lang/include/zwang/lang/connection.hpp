@@ -35,12 +35,14 @@ enum class MessageType {
 /// As ROS 2 writes it: `geometry_msgs/Twist`.
 ZWANG_EXPORT const char* to_string(MessageType type) noexcept;
 
+/// The machines that the robot may be on.
 enum class Reach {
   loopback,  ///< 127.0.0.1 alone: peers need ROS_LOCALHOST_ONLY=1
   machine,   ///< every interface; only processes of this machine are obeyed, and hear of this one
   network,   ///< every interface of this machine, or those that the file names
 };
 
+/// The name of a ROS 2 topic, and where the file says it.
 struct Topic {
   std::string name;  ///< absolute: `/joint_states`
   Span span;
@@ -70,6 +72,7 @@ struct FramePair {
   Span span;
 };
 
+/// The topic that brings a signal of the task file.
 struct SignalSource {
   std::string name;  ///< the task file's
   Topic topic;
@@ -94,8 +97,10 @@ struct BasePublication {
   double rate = 50.0;               ///< [1/s]
 };
 
+/// The command that the robot takes: a twist of the base, torques or velocities of joints.
 enum class CommandKind { twist, effort, velocity };
 
+/// The topic that the commands go to.
 struct CommandSink {
   CommandKind kind = CommandKind::twist;
   MessageType type = MessageType::twist;  ///< of a twist; joints take a Float64MultiArray
@@ -116,12 +121,14 @@ struct NamedTask {
   Span span;
 };
 
+/// The moment at which a task begins.
 enum class Begin {
   at_once,  ///< the task begins as soon as the robot is there
   service,  ///< with the service `start`
   goals,    ///< each goal of the action `run` begins a task
 };
 
+/// A checked connection file. Times are in s, rates in 1/s.
 struct Connection {
   std::string path;             ///< as it was opened
   int domain = 0;               ///< ROS_DOMAIN_ID
@@ -149,12 +156,12 @@ struct Connection {
 /// Whether ROS 2 takes it as an absolute topic name.
 ZWANG_EXPORT bool is_topic_name(std::string_view name);
 
-/// Reads and checks a connection file by itself.
+/// Reads and checks a connection file by itself. On any error nullopt, and the diagnostics say why.
 ZWANG_EXPORT std::optional<Connection> load_connection(const std::filesystem::path& path,
                                                        Diagnostics& diagnostics);
 
-/// Whether the connection gives a program all that it reads, and takes what its drive sends: E301, E922,
-/// E923.
+/// Whether the connection gives a program all that it reads, and takes what its drive sends. If not, the
+/// diagnostics say why: E301, E922, E923.
 ZWANG_EXPORT bool check_connection(const Connection& connection, const Program& program,
                                    Diagnostics& diagnostics);
 

@@ -11,14 +11,17 @@
 
 namespace zwang::lang {
 
+/// `error` refuses the file. `note` is shown on demand.
 enum class Severity { note, warning, error };
 
+/// A second place that a diagnostic speaks of.
 struct RelatedSpan {
   Span span;
   std::string text;
   std::optional<std::string> replacement;  ///< the literal text that may replace `span`
 };
 
+/// One mistake or hint, at its place in the text.
 struct Diagnostic {
   std::string code;  ///< stable, as "E201"
   Severity severity = Severity::error;
@@ -44,10 +47,13 @@ struct Silenced {
   std::string reason;
 };
 
+/// The list of all diagnostics, and the texts that they point into.
 class ZWANG_EXPORT Diagnostics {
  public:
+  /// The index of the source, for Span::source.
   int add_source(Source source);
   const std::vector<Source>& sources() const { return sources_; }
+  /// Throws std::out_of_range if there is no such source.
   const Source& source(int index) const { return sources_.at(static_cast<std::size_t>(index)); }
 
   void add(Diagnostic diagnostic);

@@ -30,11 +30,13 @@ struct Value {
   }
 };
 
+/// Both ends of a range; they may be parameters.
 struct ValueRange {
   Value low;
   Value high;
 };
 
+/// A value of the task file that can be set before and during a run.
 struct Parameter {
   std::string name;
   double value = 0.0;                  ///< SI
@@ -45,6 +47,7 @@ struct Parameter {
   Span span;
 };
 
+/// The kind of thing that a frame hangs on.
 enum class FrameParent { world, body, frame, signal };
 
 /// Frame 0 is the world, then follow the frames of the robot, then the declared ones (parents before
@@ -119,6 +122,7 @@ struct Feature {
   Span span;
 };
 
+/// The operation of a node of a condition.
 enum class Op {
   constant,          ///< `number`
   parameter,         ///< `index`
@@ -147,6 +151,7 @@ enum class Op {
   logical_not,
 };
 
+/// The value of an axis that a condition asks for. SI
 enum class CoordinateQuantity { position, velocity, force, residual, saturated };
 
 /// A node of an expression tree. Operands stand before it in the list: `left`, `right` are their indices.
@@ -218,6 +223,7 @@ enum class GroupKind {
   feature  ///< statements about `feature`: one entry of `axes`, whose `axis` means nothing
 };
 
+/// The statements about one moved frame.
 struct Group {
   std::string name;
   int move = 0;   ///< frame
@@ -225,20 +231,21 @@ struct Group {
   int path = -1;  ///< of axes: the path that they are measured along, in its frame `in`; -1: those of `in`
   std::vector<AxisStatements> axes;
   GroupKind kind = GroupKind::axes;
-  int region = -1;
+  int region = -1;               ///< of `inside`: index into Program::regions
   bool moves_footprint = false;  ///< of `inside`: the robot's whole footprint rather than the point `move`
   Value margin;                  ///< [m] of `inside`
   Value return_speed{.constant = default_return_speed};  ///< [m/s] of `inside`: of the way back into it
   int level = 1;                                         ///< of `inside`
-  int feature = -1;
+  int feature = -1;                                      ///< index into Program::features; -1: none
   Span span;
 };
 
 enum class TargetKind { task, back, done, failed };
 
+/// The end of an exit, of a timeout or of attempts.
 struct Target {
   TargetKind kind = TargetKind::done;
-  int task = -1;
+  int task = -1;  ///< index into Program::tasks; -1: none
 };
 
 enum class SetKind { frame, parameter, output };
@@ -247,12 +254,13 @@ enum class SetKind { frame, parameter, output };
 /// N}` and `set: {outputs.gripper: true}` give a value.
 struct SetAction {
   SetKind kind = SetKind::frame;
-  int index = -1;   ///< what is set
+  int index = -1;   ///< what is set: index into the program's frames, parameters or outputs
   int source = -1;  ///< frame
-  Value value;
+  Value value;      ///< of a parameter or an output
   Span span;
 };
 
+/// A condition, and the target of the run once it has held for `dwell`.
 struct Exit {
   Condition when;
   Value dwell;                   ///< `for` [s]
@@ -263,6 +271,7 @@ struct Exit {
   Span span;
 };
 
+/// The target of the run once the task has lasted for `after`.
 struct Timeout {
   Value after;  ///< [s]
   Target target;
@@ -284,6 +293,7 @@ struct Always {
   std::vector<Exit> exits;
 };
 
+/// Groups with exits, and the actions on entry.
 struct Task {
   std::string name;
   std::string about;
@@ -297,6 +307,7 @@ struct Task {
   Span span;
 };
 
+/// A whole checked task file. Indices count from 0, in the lists of this struct.
 struct Program {
   std::string path;
   std::string about;
@@ -311,8 +322,9 @@ struct Program {
   std::vector<Path> paths;
   Always always;
   std::vector<Task> tasks;
-  int start = 0;
+  int start = 0;  ///< index into `tasks`
 
+  /// The declared values, SI, parallel to `parameters`.
   std::vector<double> parameter_values() const {
     std::vector<double> values;
     for (const Parameter& p : parameters) values.push_back(p.value);

@@ -23,6 +23,7 @@ struct BaseLimit {
   Span span;
 };
 
+/// The one brake: after `done`, after `failed`, and in a protective stop.
 struct Stop {
   double deceleration = 1.0;  ///< [m/s^2]
   double force = 100.0;       ///< [N]
@@ -111,6 +112,7 @@ struct Drive {
 inline constexpr double slowest_drive_rate = 20.0;    ///< [1/s]
 inline constexpr double longest_drive_delay = 50e-3;  ///< [s]
 
+/// A checked robot file with its model. SI; vectors by joint are parallel to the joints of the model.
 struct Robot {
   std::string name;
   solver::Model model;
@@ -139,7 +141,8 @@ struct Robot {
 /// How the robot stands before it moves: at the world's origin, its joints in their posture.
 ZWANG_EXPORT solver::State start_state(const Robot& robot);
 
-/// Reads and checks a robot file and the URDF it names. The only URDF reader.
+/// Reads and checks a robot file and the URDF it names. The only URDF reader. On any error nullopt, and the
+/// diagnostics say why.
 ZWANG_EXPORT std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

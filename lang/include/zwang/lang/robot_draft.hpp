@@ -12,6 +12,7 @@
 
 namespace zwang::lang {
 
+/// A wheel that the draft has found.
 struct DraftWheel {
   std::string joint;
   std::string link;
@@ -41,6 +42,7 @@ struct AssumedRobot {
   Robot robot;
 };
 
+/// The facts that a URDF gives about a robot, and the text of its robot file.
 struct RobotDraft {
   std::string name;
   std::string base;
@@ -68,6 +70,7 @@ struct RobotDraft {
 
 inline constexpr const char* fill_in = "FILL_IN";
 
+/// Facts that the owner of the robot gives beforehand.
 struct DraftOptions {
   bool with_hook =
       false;  ///< the frame `hook` is in the draft, to be filled in where nobody knows the outline

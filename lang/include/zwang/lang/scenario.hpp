@@ -35,6 +35,7 @@ struct ScenarioCell {
   std::map<std::string, Span> spans;  ///< where `robot`, `scene`, `params.NAME` are written
 };
 
+/// A checked scenario file: one cell for each combination of its matrix.
 struct Scenario {
   std::string path;
   std::string about;
@@ -45,6 +46,7 @@ struct Scenario {
   std::vector<ScenarioCell> cells;
 };
 
+/// The time at which an expectation is judged.
 enum class ExpectationKind {
   outcome,     ///< the run ends with `word`
   diagnostic,  ///< the task is refused, and `word` is among the reasons
@@ -76,14 +78,14 @@ struct Expectation {
 /// - of each region, how far inside of it the footprint is [m]
 /// - of each task, when it was entered first [s]
 enum TruthOfBase {
-  truth_x,
-  truth_y,
-  truth_yaw,
-  truth_vx,  ///< [m/s] along the base's own axes, as is
-  truth_vy,
-  truth_speed,
-  truth_turn,
-  truth_torque,
+  truth_x,       ///< [m] of the base's origin in the world
+  truth_y,       ///< [m]
+  truth_yaw,     ///< [rad]
+  truth_vx,      ///< [m/s] along the base's own x
+  truth_vy,      ///< [m/s] along its y
+  truth_speed,   ///< [m/s] the norm of both
+  truth_turn,    ///< [rad/s] about the vertical
+  truth_torque,  ///< share of its limit, of the motor nearest to it
   truth_switch,  ///< [N m] most that a motor's torque went in the two ticks of a switch of tasks, so far
   truth_roll,    ///< [rad] about the base's own x
   truth_pitch,   ///< [rad] about its y
@@ -95,14 +97,15 @@ enum TruthOfBase {
   run_slipped,         ///< [s] when slip was told first
   truth_base_count
 };
+/// Values of one object.
 enum TruthOfObject {
-  truth_force,
-  truth_peak,
-  truth_steady,  ///< [N] what `force` less `pull` has been for half a second, while the base kept its speed
-  truth_touched,
-  truth_object_x,
-  truth_object_y,
-  truth_object_yaw,
+  truth_force,     ///< [N] that the first robot's body presses on it with
+  truth_peak,      ///< [N] the largest so far
+  truth_steady,    ///< [N] what `force` less `pull` has been for half a second, while the base kept its speed
+  truth_touched,   ///< [s] when it was touched first
+  truth_object_x,  ///< [m] in the world
+  truth_object_y,  ///< [m]
+  truth_object_yaw,   ///< [rad]
   truth_latched,      ///< [s] when a hook latched in its dock
   truth_pull,         ///< [N] with which the hook pulls the dock outwards; 0 while it is not latched
   truth_object_hand,  ///< [N] of all hands on it
@@ -110,16 +113,17 @@ enum TruthOfObject {
 };
 /// Of another robot: what an object has, and
 enum TruthOfRobot {
-  truth_robot_speed = truth_object_count,
-  truth_robot_turn,
-  truth_robot_torque,
-  truth_robot_stopped,  ///< [s] when its protective stop latched
+  truth_robot_speed = truth_object_count,  ///< [m/s]
+  truth_robot_turn,                        ///< [rad/s]
+  truth_robot_torque,                      ///< share, as truth_torque
+  truth_robot_stopped,                     ///< [s] when its protective stop latched
   truth_robot_count
 };
+/// The names of these values in that order, as conditions of scenarios write them.
 ZWANG_EXPORT std::vector<std::string> truth_names(const Program& program);
 
 /// Reads a scenario file, multiplies its matrix out, and checks the parameters that it names against those
-/// that the task file declares.
+/// that the task file declares. On any error nullopt, and the diagnostics say why.
 ZWANG_EXPORT std::optional<Scenario> load_scenario(const std::filesystem::path& path,
                                                    Diagnostics& diagnostics);
 

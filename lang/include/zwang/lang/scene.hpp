@@ -19,9 +19,9 @@ struct Program;
 
 /// Where a scripted object stands at a time; between two of them it moves straight and evenly.
 struct Waypoint {
-  double time = 0.0;  ///< [s]
-  std::array<double, 2> at{};
-  double yaw = 0.0;
+  double time = 0.0;           ///< [s]
+  std::array<double, 2> at{};  ///< [m] world
+  double yaw = 0.0;            ///< [rad]
 };
 
 /// A socket in which a hook latches.
@@ -52,6 +52,7 @@ struct Guide {
   bool locked = false;                        ///< nothing moves it
 };
 
+/// An object that the robot can meet.
 struct SceneObject {
   std::string name;
   ShapeKind shape = ShapeKind::wall;
@@ -88,6 +89,7 @@ struct SceneObject {
   double slides_on(double floor) const { return slides.value_or(std::min(friction.value_or(floor), floor)); }
 };
 
+/// One value of a script, from its time on.
 struct ScriptStep {
   double time = 0.0;   ///< [s] from here on
   double value = 0.0;  ///< SI; 0 and 1 of a bool
@@ -101,6 +103,7 @@ enum class ScriptKind {
   number
 };
 
+/// The quantity that a signal of the scene measures.
 enum class SceneSignalKind {
   script,    ///< a bool or a number
   pose,      ///< of the object or robot, in the frame that the task file's signal is seen from
@@ -146,6 +149,7 @@ struct StateNoise {
   std::optional<SceneSignal> fix;
 };
 
+/// The kind of a fault.
 enum class FaultKind {
   samples_lost,     ///< no sample arrives
   samples_nan,      ///< an entry of the state is not a number
@@ -165,15 +169,16 @@ enum class FaultKind {
   plant_diverges,   ///< the simulation leaves the finite numbers
 };
 
+/// A fault that begins at a time.
 struct Fault {
   FaultKind kind = FaultKind::samples_lost;
   double at = 0.0;                                            ///< [s]
   double duration = std::numeric_limits<double>::infinity();  ///< [s]
-  std::string joint;
+  std::string joint;                                          ///< of a motor or a wheel; empty: of none
   Span joint_span{};
   std::string robot;  ///< whose: one of Scene::robots; empty: the first one's, or the world's
   Span robot_span{};
-  double value = 0.0;
+  double value = 0.0;  ///< of the kinds that have one, in the unit that FaultKind names
   Span span;
 };
 
@@ -217,14 +222,16 @@ struct SceneRobot {
   Span span;
 };
 
+/// Beside the first robot.
 inline constexpr std::size_t most_scene_robots = 4;
 
+/// A checked scene file.
 struct Scene {
   std::string path;                  ///< as it was opened
   std::array<double, 2> start_at{};  ///< [m] world
   double start_yaw = 0.0;            ///< [rad]
-  double floor_friction = 0.9;
-  bool real_rollers = false;  ///< mecanum and omni wheels are built roller by roller
+  double floor_friction = 0.9;       ///< Coulomb coefficient
+  bool real_rollers = false;         ///< mecanum and omni wheels are built roller by roller
   Span real_rollers_span;
   std::vector<SceneObject> objects;
   std::vector<SceneRobot> robots;  ///< beside the first one
@@ -238,6 +245,8 @@ struct Scene {
   int seen_robot(int robot) const { return static_cast<int>(objects.size()) + 1 + robot; }
 };
 
+/// Reads and checks a scene file by itself, and the task files of its other robots. On any error nullopt, and
+/// the diagnostics say why.
 ZWANG_EXPORT std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -5,6 +5,7 @@
 
 namespace zwang::lang {
 
+/// A place in a text.
 struct Position {
   int line = 0;    ///< from 1; 0 when there is no text
   int column = 0;  ///< from 1, in code points

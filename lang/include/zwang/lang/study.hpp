@@ -17,6 +17,7 @@ namespace zwang::lang {
 
 struct ScenarioFile;
 
+/// The kind of a distribution.
 enum class Spread { uniform, log_uniform, normal, choice };
 
 /// How a drawn value is spread.
@@ -41,6 +42,7 @@ struct Draw {
 
 inline constexpr std::size_t most_cells_of_a_study = 10'000'000;
 
+/// The way in which the cells fill the range of the draws.
 enum class Sequence { random, halton };
 
 /// How often an expectation must hold. Without a probability each cell must.
@@ -51,6 +53,7 @@ struct Claim {
   Span span;
 };
 
+/// A checked study file.
 struct Study {
   std::string path;
   std::string about;
@@ -59,7 +62,7 @@ struct Study {
   Scenario scenario;
   std::vector<Draw> draws;
   std::vector<Claim> claims;  ///< parallel to the expectations
-  std::size_t runs = 0;
+  std::size_t runs = 0;       ///< cells
   Sequence sequence = Sequence::random;
   std::shared_ptr<const ScenarioFile> file;
   std::shared_ptr<const Diagnostics> read;  ///< with the texts that spans point into
@@ -67,13 +70,14 @@ struct Study {
 };
 
 /// Reads and checks a study: each draw exists, and the expectations have a meaning. In the middle of all
-/// draws and at the ends of each the task is not refused, or the expectations say so.
+/// draws and at the ends of each the task is not refused, or the expectations say so. On any error nullopt,
+/// and the diagnostics say why.
 ZWANG_EXPORT std::optional<Study> load_study(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// A number in (0, 1) for the cell and the draw with these numbers. `halton` fills the unit cube evenly. Any
 /// cell can be asked for alone.
 ZWANG_EXPORT double drawn_share(Sequence sequence, std::uint64_t seed, std::size_t cell, std::size_t draw);
-/// Of everything random in the run of the cell.
+/// The seed of everything random in the run of the cell.
 ZWANG_EXPORT std::uint64_t seed_of_cell(std::uint64_t seed, std::size_t cell);
 
 /// A cell of a study, ready to run.
@@ -84,6 +88,7 @@ struct StudyCell {
 
   const ScenarioCell& cell() const { return scenario.cells.front(); }
 };
+/// The cell with this number, from 0 on. It depends on the study, its seed and the number alone.
 ZWANG_EXPORT StudyCell draw_cell(const Study& study, std::size_t index);
 /// The same with given shares, one for each draw and one more, the last, for the cell of the matrix.
 ZWANG_EXPORT StudyCell draw_cell(const Study& study, const std::vector<double>& shares);

@@ -16,6 +16,7 @@ namespace zwang::lang {
 /// The use cases that can be fitted.
 ZWANG_EXPORT const std::vector<std::string>& fitted_tasks();
 
+/// The motions that a base has.
 enum class Freedoms {
   all,      ///< ahead, sideways and about the vertical; or not known yet
   two,      ///< plain wheels on one axle hold it sideways
@@ -42,6 +43,7 @@ struct BaseFit {
   std::string base = "base";  ///< what a task calls it
 };
 
+/// The masses are those of the first robot that the draft assumes. Unknown values keep their default.
 ZWANG_EXPORT BaseFit base_fit(const RobotDraft& draft);
 ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
@@ -60,6 +62,7 @@ ZWANG_EXPORT std::optional<double> start_askew(const BaseFit& fit);
 /// Why this base cannot do `task`; empty: it can, as far as is known.
 ZWANG_EXPORT std::string why_unfit(const std::string& task, const BaseFit& fit);
 
+/// The texts of a task file and of its scene.
 struct TaskTexts {
   std::string task, scene;
 };

@@ -10,20 +10,21 @@
 
 namespace zwang::runtime {
 
+/// The kind of an event. The codes from `bad_sample` to `frozen_base` latch the protective stop.
 enum class EventCode {
   none,
   // These codes latch the protective stop.
-  bad_sample,
-  lost_ticks,
-  frozen,
-  bad_torque,
-  solver,
-  plant,
-  requested,
-  watchdog,
-  torque_lost,
-  torque_stuck,
-  torque_flipped,
+  bad_sample,        ///< a number in a sample that is not finite or cannot be; a vector of another size
+  lost_ticks,        ///< too long without a good sample; `value`: the step of time [s]
+  frozen,            ///< no encoder confirms the motion that the motors or the rates tell
+  bad_torque,        ///< a torque for SafetyGuard::output is not finite, or their number is another
+  solver,            ///< the solver refused the tick; `value`: its Status
+  plant,             ///< the robot does not answer
+  requested,         ///< a host asked for the stop
+  watchdog,          ///< no tick came in time
+  torque_lost,       ///< a motor gives nothing of what it is told
+  torque_stuck,      ///< a motor keeps the torque that it had
+  torque_flipped,    ///< a motor gives the opposite
   joint_travel,      ///< a joint of an arm is too near to the end of its travel for the speed that it has
   joint_speed,       ///< a joint of an arm is faster than its URDF allows
   runaway,           ///< faster than the task allows, and ever faster while the motors are told to brake
@@ -39,11 +40,11 @@ enum class EventCode {
                  ///< stays behind where the drive has torque limits of its own; `value`: its rate
   frozen_base,   ///< the wheels roll, and the measured base stays as it was; `value`: how far they say [m]
   // These codes are only reported.
-  clock_refused,  ///< time went backwards, or jumped
-  clock_drift,    ///< the samples' clock is off by more than a tenth; `value`: its rate
-  sample_lost,    ///< none has arrived since the last tick
-  sensor_bias,    ///< a force is measured before anything has moved
-  slip,
+  clock_refused,   ///< time went backwards, or jumped
+  clock_drift,     ///< the samples' clock is off by more than a tenth; `value`: its rate
+  sample_lost,     ///< none has arrived since the last tick
+  sensor_bias,     ///< a force is measured before anything has moved
+  slip,            ///< the wheels contradict each other, or the measured base
   wrench_refused,  ///< along an axis whose force is limited, f_ext is not for the solver
   entry_refused,   ///< what a task requires to be entered does not hold; `value` is the task's number
   signal_refused,  ///< samples of it come, and cannot be taken; `value`: a stamp that is ahead by so much, or
@@ -62,6 +63,7 @@ inline constexpr bool latches_the_stop(EventCode code) {
   return code > EventCode::none && code < EventCode::clock_refused;
 }
 
+/// One event: its code, its time, and the signal that showed it.
 struct Event {
   EventCode code = EventCode::none;
   /// [s] of the sample; where it has no good time, when it was due. After a clock that went back it goes on

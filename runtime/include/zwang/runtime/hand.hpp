@@ -36,6 +36,7 @@ struct SentObject {
   bool operator==(const SentObject&) const = default;
 };
 
+/// All actions of a hand at one instant.
 struct Hand {
   Push push;
   std::vector<bool> blocked;   ///< of Program::signals: nothing is measured

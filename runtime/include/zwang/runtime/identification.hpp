@@ -18,11 +18,13 @@ class ZWANG_EXPORT NotIdentified : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A number with its standard error, both in the same unit.
 struct Estimate {
   double value = 0.0;
   double error = 0.0;  ///< standard error; 0 of what was given
 };
 
+/// The estimates of one motor.
 struct IdentifiedMotor {
   std::string joint;
   Estimate torque_factor;  ///< what the motor gives of the torque it is told
@@ -30,6 +32,7 @@ struct IdentifiedMotor {
   Estimate viscous;        ///< [N m s/rad]
 };
 
+/// The result: all motors, the mass and the inertia.
 struct Identification {
   std::vector<IdentifiedMotor> motors;
   Estimate mass;     ///< [kg] without the added load

@@ -34,6 +34,7 @@ struct ZWANG_EXPORT LoggedColumn {
 /// The number of the column with this name; that of all columns where there is none.
 ZWANG_EXPORT std::size_t place_of(const std::vector<LoggedColumn>& columns, std::string_view name) noexcept;
 
+/// The contents of a log beside its records.
 struct LogContents {
   LogContext context;
   std::map<std::string, std::string> conclusion;  ///< given when the run was over: "outcome", "report"

@@ -68,6 +68,7 @@ struct RobotTruth {
   BaseTruth base;
 };
 
+/// All measurements of the simulator at one instant. The controller never sees them.
 struct Truth {
   double time = 0.0;         ///< [s]
   double x = 0.0, y = 0.0;   ///< [m] base frame in the world
@@ -105,8 +106,8 @@ ZWANG_EXPORT const char* mujoco_version() noexcept;
 
 struct MujocoPlantOptions {
   double period = 1e-3;                           ///< [s] of a simulation step
-  std::optional<std::array<double, 2>> start_at;  ///< overrides the scene's
-  std::optional<double> start_yaw;
+  std::optional<std::array<double, 2>> start_at;  ///< [m] in the world; overrides the scene's
+  std::optional<double> start_yaw;                ///< [rad] likewise
   /// Mecanum and omni wheels with eighteen rollers each, as they are built, in the place of smooth ones:
   /// slower, and with their ripple. Scenes may say so, too.
   bool real_rollers = false;

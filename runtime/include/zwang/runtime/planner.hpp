@@ -14,13 +14,14 @@
 
 namespace zwang::runtime {
 
+/// One row of a task as the solver gets it.
 struct PlannedRow {
   solver::Row row;
   std::string name;                ///< "contact.x"
   lang::Span span;                 ///< of the statement; none: it has no text
   std::optional<double> weight;    ///< [kg] or [kg m^2]
   std::optional<double> fraction;  ///< of b that a soft row meets
-  bool turns = false;
+  bool turns = false;              ///< measured in rad rather than in m
 };
 
 /// The smallest and the largest over the configurations; values that are not finite do not count.
@@ -35,12 +36,13 @@ struct Spread {
   bool is_one_number() const { return most - least <= 1e-3 * std::abs(most); }
 };
 
+/// The mass and the forces of the robot along one axis.
 struct PlannedAxis {
   std::string name;
-  bool turns = false;
-  solver::AxisAnalysis analysis;  ///< at the start pose
-  Spread mass, force;             ///< where the joints let it move
-  bool is_sometimes_held = false;
+  bool turns = false;              ///< measured in rad rather than in m
+  solver::AxisAnalysis analysis;   ///< at the start pose
+  Spread mass, force;              ///< [kg], [N] or [kg m^2], [N m], where the joints let it move
+  bool is_sometimes_held = false;  ///< in one of the configurations the ground holds it
 };
 
 /// A statement that has no row at the start pose.
@@ -49,6 +51,7 @@ struct DormantRow {
   lang::Span span;
 };
 
+/// The rows and axes of one task.
 struct TaskPlan {
   std::string task;
   std::string refused;  ///< why there are no rows; empty otherwise

@@ -73,6 +73,7 @@ struct Sensed {
   std::vector<SignalSample> signals;
 };
 
+/// The answer of the robot.
 enum class PlantStatus {
   ok,
   diverged,    ///< the simulation reset itself, warned or left the finite numbers: the run is void
@@ -85,8 +86,10 @@ ZWANG_EXPORT const char* to_string(PlantStatus status) noexcept;
 class ZWANG_EXPORT Plant {
  public:
   virtual ~Plant() = default;
+  /// Fills in the snapshot of now. If nothing arrived, leave it as it is and return `unreachable`: the guard
+  /// tells by the stamp that no sample came.
   virtual PlantStatus sense(Sensed& sensed) noexcept = 0;
-  /// Applies the joint torques [N m] or [N] for one control period.
+  /// Applies the joint torques [N m] or [N] for one control period, one entry a joint of the model.
   virtual PlantStatus apply(const Eigen::VectorXd& tau) noexcept = 0;
   /// Runner::command. A robot whose drive takes velocities overrides it; any other takes the torques.
   virtual PlantStatus follow(const Command& command) noexcept { return apply(command.torque); }

@@ -58,6 +58,7 @@ ZWANG_EXPORT std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path
 /// first column `time` in seconds.
 ZWANG_EXPORT std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
 
+/// Counts of records, and the first error.
 struct RecorderStatus {
   std::uint64_t recorded = 0;   ///< records accepted by `record`
   std::uint64_t written = 0;    ///< records handed to every sink without an error
@@ -67,10 +68,12 @@ struct RecorderStatus {
   bool complete() const { return dropped == 0 && error.empty() && recorded == written; }
 };
 
+/// Takes records from the control loop, and writes them on a thread of its own.
 class ZWANG_EXPORT Recorder {
  public:
   /// Opens the sinks and starts the writer. A sink that cannot be opened, or throws, is reported by `status`,
-  /// not thrown; the others go on. Throws std::invalid_argument without sinks, columns or capacity.
+  /// not thrown; the others go on. `capacity`: records that the ring holds. Throws std::invalid_argument
+  /// without sinks, columns or capacity.
   Recorder(std::vector<std::unique_ptr<LogSink>> sinks, std::vector<Column> columns,
            std::size_t capacity = 8192);
   /// Into one CSV file.

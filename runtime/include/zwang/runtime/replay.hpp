@@ -24,6 +24,7 @@ ZWANG_EXPORT std::optional<lang::Program> logged_program(const LogContext& conte
 /// too little.
 ZWANG_EXPORT RunnerSettings logged_settings(const LogContext& context);
 
+/// The first torque that is not the same. [N m] or [N]
 struct ReplayDifference {
   double time = 0.0;  ///< [s]
   std::string column;
@@ -31,6 +32,7 @@ struct ReplayDifference {
   double computed = 0.0;
 };
 
+/// The number of records that give the same torques again.
 struct ReplayResult {
   std::uint64_t records = 0;  ///< that were compared
   std::uint64_t equal = 0;    ///< of them: every torque to the last bit

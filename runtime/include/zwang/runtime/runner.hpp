@@ -23,6 +23,7 @@
 
 namespace zwang::runtime {
 
+/// The state of a run.
 enum class RunState {
   running,
   done,
@@ -67,6 +68,7 @@ enum class SwapRefusal {
 };
 const char* describe(SwapRefusal refusal) noexcept;  ///< a sentence without its end
 
+/// The result of a swap.
 struct SwapResult {
   SwapRefusal refusal = SwapRefusal::none;
   const char* signal = "";  ///< its name, where the refusal is about one; as long as the next runner lives
@@ -75,6 +77,7 @@ struct SwapResult {
 /// The sentence with the signal's name. Allocates.
 ZWANG_EXPORT std::string describe(const SwapResult& result);
 
+/// Settings by the host; without them the robot file counts.
 struct RunnerSettings {
   /// [s] between steps, 0.1 to 10 ms; where none is given, the robot file's `control_period`.
   std::optional<double> period;
@@ -94,8 +97,10 @@ class ZWANG_EXPORT Runner {
   Runner(Runner&&) noexcept;
   Runner& operator=(Runner&&) noexcept;
 
-  /// The torques to send for this sample [N m] or [N]; always finite and within the joints' limits. Goes on
-  /// braking and holding after the run is over. Does not allocate, lock, throw or print.
+  /// The torques to send for this sample [N m] or [N], one entry a joint; always finite and within the
+  /// joints' limits. A state of another size latches the stop (`bad_sample`). `extra` has a value for each
+  /// of `extra_columns`. Goes on braking and holding after the run is over. Does not allocate, lock, throw or
+  /// print.
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
   /// The command of that step to a drive of any kind, for Plant::follow. A drive that takes velocities needs
   /// it.
@@ -137,14 +142,14 @@ class ZWANG_EXPORT Runner {
   /// The columns of a log of this run. A recorder made with them may be attached before the first step; it
   /// must outlive the runner.
   std::vector<Column> columns() const;
-  void record_to(Recorder* recorder) noexcept;
+  void record_to(Recorder* recorder) noexcept;  ///< nullptr: no log
 
   const Scheduler& scheduler() const noexcept;
   const SafetyGuard& guard() const noexcept;
-  SafetyGuard& guard() noexcept;
-  const solver::Solution& solution() const noexcept;
-  GuardStatus guard_status() const noexcept;      ///< of the last step
-  solver::Status solver_status() const noexcept;  ///< of the last step that got to the solver
+  SafetyGuard& guard() noexcept;                      ///< for `stop` and `reset`, between two steps
+  const solver::Solution& solution() const noexcept;  ///< of the last step that solved; sets in their order
+  GuardStatus guard_status() const noexcept;          ///< of the last step
+  solver::Status solver_status() const noexcept;      ///< of the last step that got to the solver
 
   const std::vector<Transition>& transitions() const noexcept;  ///< the first 1024
   std::uint64_t transition_count() const noexcept;

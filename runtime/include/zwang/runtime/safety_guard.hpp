@@ -14,6 +14,7 @@
 
 namespace zwang::runtime {
 
+/// The verdict of `admit` on a sample.
 enum class SampleStatus {
   good,
   not_finite,  ///< a number in it is not finite, or beyond anything a robot can have
@@ -22,6 +23,7 @@ enum class SampleStatus {
 };
 ZWANG_EXPORT const char* to_string(SampleStatus status) noexcept;
 
+/// The way that the torques went through the guard.
 enum class GuardStatus {
   passed,   ///< the torques went through as they came
   limited,  ///< a torque was cut to its limit
@@ -31,6 +33,7 @@ enum class GuardStatus {
 };
 ZWANG_EXPORT const char* to_string(GuardStatus status) noexcept;
 
+/// The bounds of the guard.
 struct GuardSettings {
   double period = 1e-3;     ///< [s] control period
   double max_step = 0.1;    ///< [s] a longer step of time is refused
@@ -39,14 +42,15 @@ struct GuardSettings {
   double max_slew = std::numeric_limits<double>::infinity();
 };
 
+/// Counts since construction.
 struct GuardCounters {
-  std::uint64_t samples = 0;
-  std::uint64_t refused_values = 0;
-  std::uint64_t refused_clock = 0;
-  std::uint64_t frozen = 0;
-  std::uint64_t bad_torques = 0;
-  std::uint64_t limited = 0;
-  std::uint64_t slewed = 0;
+  std::uint64_t samples = 0;         ///< that came to `admit`
+  std::uint64_t refused_values = 0;  ///< `not_finite`
+  std::uint64_t refused_clock = 0;   ///< `bad_clock` or `untimely`
+  std::uint64_t frozen = 0;          ///< samples
+  std::uint64_t bad_torques = 0;     ///< calls of `output` without one finite torque a joint
+  std::uint64_t limited = 0;         ///< calls of `output` that cut a torque to its limit
+  std::uint64_t slewed = 0;          ///< calls that cut a torque's rate
 };
 
 /// As many ticks without a good sample stop a robot of this control period [s]: 20, but at least 5, and for 50

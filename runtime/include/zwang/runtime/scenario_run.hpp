@@ -14,6 +14,7 @@
 
 namespace zwang::runtime {
 
+/// The result of one expectation.
 struct ExpectationResult {
   std::string text;
   lang::Span span;
@@ -54,6 +55,7 @@ struct CellStory {
   std::vector<std::array<double, 3>> path;  ///< x, y [m] and yaw [rad] of the base, as the plant has it
 };
 
+/// The result of one cell.
 struct CellResult {
   std::string name;
   bool passed = false;

@@ -35,6 +35,7 @@ class ZWANG_EXPORT SimulationSteps {
   int until_tick_ = 0;
 };
 
+/// Options of a run beside the scene.
 struct ScenePlantOptions {
   MujocoPlantOptions simulation;
   std::uint64_t seed = 0;           ///< of all noise and dropouts

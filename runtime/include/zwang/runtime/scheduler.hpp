@@ -1,4 +1,5 @@
-/// Which task is active, which constraints are in force, and how they fade: steps 2 to 7 of the control tick.
+/// Which task is active, which constraints are in force, and how they fade: steps 5 to 8 of the
+/// control tick (runtime/README.md).
 #pragma once
 
 #include <cstdint>
@@ -17,15 +18,18 @@
 
 namespace zwang::runtime {
 
+/// The phase of a run: tasks, brake, rest.
 enum class Phase {
   running,
   stopping,  ///< `done` or `failed` was reached; the base brakes
   finished,  ///< the base stands; the brake's rows stay in force and hold it
 };
 
+/// The end that the tasks have reached.
 enum class Outcome { none, done, failed };
 ZWANG_EXPORT const char* to_string(Outcome outcome) noexcept;
 
+/// The reason of a transition.
 enum class Cause {
   start,        ///< the program's start task
   always,       ///< one of the exits of `always`
@@ -156,16 +160,18 @@ class ZWANG_EXPORT Scheduler {
   Phase phase() const noexcept;
   Outcome outcome() const noexcept;  ///< none until `done` or `failed` is reached
   bool has_stood() const noexcept;   ///< in phase `finished`: the base was seen to stand
-  int task() const noexcept;
+  int task() const noexcept;         ///< the active one, an index into `tasks()`; -1 before the first tick
   /// [s] since the task was entered, interruptions left out.
   double elapsed() const noexcept;
+  /// Zeros where the active task and `always` have no such statement.
   AxisReading reading(const Origin& origin) const noexcept;
   /// How long the condition of the active task's exit has been true without a break. [s]
   double dwell(int exit) const noexcept;
   double always_dwell(int exit) const noexcept;  ///< dwell of an exit of `always` [s]
+  /// The present values, SI, in the order of Program::parameters.
   const std::vector<double>& parameters() const noexcept;
-  /// Sets a parameter from outside, between two ticks; constraints follow on the next one. False, and nothing
-  /// happens, for an index or a value outside its range or a value that is not finite.
+  /// Sets a parameter [SI] from outside, between two ticks; constraints follow on the next one. False, and
+  /// nothing happens, for an index or a value outside its range or a value that is not finite.
   bool set_parameter(int index, double value) noexcept;
 
   // Signals, as of the last tick, parallel to the program's.

@@ -30,6 +30,7 @@ struct Stretch {
   double end = 0.0;    ///< [s] of the first record behind it, or of the last one of the log
 };
 
+/// An event as the log has it; `value` in SI.
 struct LoggedEvent {
   double time = 0.0;  ///< [s]
   std::string code, signal;

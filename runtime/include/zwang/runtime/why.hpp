@@ -10,6 +10,7 @@
 
 namespace zwang::runtime {
 
+/// The value of a condition.
 enum class Verdict { no, yes, unknown };
 ZWANG_EXPORT const char* to_string(Verdict verdict) noexcept;  ///< "false", "true", "unknown"
 
@@ -79,6 +80,7 @@ enum class WhyCause {
 };
 ZWANG_EXPORT const char* to_string(WhyCause cause) noexcept;
 
+/// The reason, as numbers and as a sentence.
 struct Why {
   WhyCause cause = WhyCause::waiting;
   double time = 0.0;              ///< [s] when it was decided; while nothing is, of the last sample

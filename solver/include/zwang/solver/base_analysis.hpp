@@ -21,6 +21,7 @@ struct AxisAnalysis {
       0.0;  ///< that the motors can make along it, exactly and with nothing beside it [N] or [N m]
 };
 
+/// The capabilities of a base at one state.
 struct BaseAnalysis {
   int mobility = 0;         ///< freedoms of base and joints that the ground leaves
   int base_mobility = 0;    ///< of them, motions of the base: 3 for an omnidirectional one
@@ -38,11 +39,14 @@ struct BaseAnalysis {
   bool locked = false;
 };
 
-/// Allocates; not for the control loop. Throws std::invalid_argument on a state that does not fit the model.
+/// At the positions of `state`; its velocities and forces do not count. Allocates; not for the control loop.
+/// Throws std::invalid_argument on a state that does not fit the model, and on an inertia that cannot be
+/// inverted.
 ZWANG_EXPORT BaseAnalysis analyse_base(const Model& model, const State& state);
 
 /// The same for whatever a constraint measures between its frames; its statements do not matter. A planar
-/// speed has no direction at rest: analyse the directions that it may take.
+/// speed has no direction at rest: analyse the directions that it may take. Throws std::invalid_argument,
+/// too, if the measure makes no row at this state.
 ZWANG_EXPORT AxisAnalysis analyse_axis(const Model& model, const State& state,
                                        const AxisConstraint& constraint);
 /// The same for one axis of any frame on the robot.

@@ -18,11 +18,13 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double limit_horizon =
     0.010;  ///< h [s], within which limits act, of torques that come as often
 
+/// An axis of a frame: along x, y, z, or about them.
 enum class Axis { x, y, z, rx, ry, rz };
 
 /// Which of an axis's four quantities a statement speaks of.
 enum class Quantity { position, velocity, acceleration, force };
 
+/// Both ends belong to it. The unit is that of the bounded quantity.
 struct Range {
   double low = -infinity;
   double high = infinity;
@@ -54,7 +56,7 @@ struct Driver {
   double target = 0.0;               ///< c, v, p or f
   double target_rate = 0.0;          ///< dp, or dv for a velocity driver
   double target_acceleration = 0.0;  ///< ddp
-  double time_constant = 0.5;        ///< tau [s]
+  double time_constant = 0.5;        ///< T [s]
   Range force;                       ///< bounds of the row's multiplier [N] or [N m]
   /// A position driver with a stiffness or a damping is a spring: a force row. Its force is
   /// f = k (p - s) + d (dp - ds), inside the range `force`. [N/m, N s/m] or [N m/rad, N m s/rad]
@@ -113,6 +115,7 @@ struct Coordinate {
   double acceleration_bias = 0.0;  ///< gamma: dds = a . (A_k - A_c) + gamma
 };
 
+/// The kind of a row.
 enum class RowKind {
   driver,  ///< equality with a bounded multiplier
   upper,   ///< a . Xdd <= b, nu <= 0
@@ -121,11 +124,12 @@ enum class RowKind {
   sum,     ///< no force of its own: lo and hi bound what all rows of its level and below press with along a
 };
 
+/// One row of the bounded problem, on spatial accelerations.
 struct Row {
   RowKind kind = RowKind::driver;
   Quantity quantity = Quantity::velocity;  ///< of the statement that made the row
-  int constraint = -1;                     ///< index of that constraint
-  int body = 0;
+  int constraint = -1;                     ///< index of that constraint in its set
+  int body = 0;                            ///< of the model, on which `a` acts
   ForceVector
       a;  ///< unit constraint force on `body`, in its coordinates and about its origin: a column of A_N
   int reference_body = -1;  ///< the row measures motion relative to this body; -1 for the world
@@ -135,7 +139,7 @@ struct Row {
   double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
   double hi = infinity;
   double weight = infinity;  ///< w [kg] or [kg m^2] of a motion row, above 0; softness R = 1/w
-  int level = 1;
+  int level = 1;             ///< from 0 on; a lower number goes first
 };
 
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
@@ -148,13 +152,17 @@ class ZWANG_EXPORT ConstraintSet {
   void clear() noexcept;
   bool add(const AxisConstraint& constraint) noexcept;  ///< false when full
   const std::vector<AxisConstraint>& constraints() const noexcept { return constraints_; }
+  /// `i`: from 0 to the number of constraints less 1; not checked.
   AxisConstraint& operator[](int i) noexcept { return constraints_[static_cast<std::size_t>(i)]; }
 
-  /// Computes every coordinate and row. False when the rows exceed the capacity.
+  /// Computes every coordinate and row. The state is sized for the model. False when the rows exceed the
+  /// capacity: the rows are then a part.
   bool fill(const Model& model, const State& state) noexcept;
   /// The same at the state that `motions` knows the bodies of.
   bool fill(BodyMotions& motions) noexcept;
+  /// One for each constraint, in their order, as filled last.
   const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
+  /// In the order of the constraints, as filled last: for Solver::solve.
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
  private:
@@ -181,6 +189,7 @@ ZWANG_EXPORT Coordinate coordinate_of(const AttachedFrame& move, const AttachedF
 /// The present motion along the measure of a constraint.
 ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model,
                                       const State& state) noexcept;
+/// The same at the state that `motions` knows the bodies of.
 ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
 
 /// Of `move` along `axis` of `in`, nothing but the position. [m] or [rad]

@@ -44,15 +44,18 @@ class ZWANG_EXPORT BodyMotions {
   /// Remembers `capacity` bodies; more are worked out anew each time.
   explicit BodyMotions(std::size_t capacity);
 
-  /// Forgets what it knew. Model and state must live, unchanged, as long as they are asked about.
+  /// Forgets what it knew. Model and state must live, unchanged, as long as they are asked about. Call it
+  /// before the first question.
   void start(const Model& model, const State& state) noexcept;
-  /// To be read before the next question.
+  /// Of a body of the model, from 0 on. To be read before the next question.
   const FrameMotion& of(int body) noexcept;
+  /// Of a frame on a body or in the world.
   FrameMotion of(const AttachedFrame& frame) noexcept;
   /// A body's, in its own axes and at its origin.
   MotionVector twist_of(int body) noexcept;
   /// Without a copy where the frame is a body's own; else in `place`.
   const FrameMotion& of(const AttachedFrame& frame, FrameMotion& place) noexcept;
+  /// X_WF alone, likewise.
   const Pose& pose_of(const AttachedFrame& frame, Pose& place) noexcept;
 
  private:

@@ -24,7 +24,7 @@ class ZWANG_EXPORT JointLoads {
   };
   explicit JointLoads(const Model& model);
 
-  /// In this posture and at this tilt of the base.
+  /// In this posture and at this tilt of the base. The state is sized for the model.
   void weigh(const State& state) noexcept;
   /// As weighed last, in the order of the joints.
   const std::vector<Load>& all() const noexcept { return loads_; }

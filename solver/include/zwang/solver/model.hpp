@@ -12,6 +12,7 @@
 
 namespace zwang::solver {
 
+/// The motion of a joint. `continuous` turns without end.
 enum class JointType { fixed, revolute, continuous, prismatic };
 
 /// A joint of one freedom between a body and its parent.
@@ -20,11 +21,11 @@ struct Joint {
   JointType type = JointType::fixed;
   Vector3 axis = Vector3::UnitX();  ///< unit vector, in the body's frame
   double rotor_inertia = 0.0;  ///< d [kg m^2] or [kg], reflected to the joint: gear^2 times the rotor's own
-  bool actuated = false;
+  bool actuated = false;       ///< a motor turns or slides it
   double max_effort = std::numeric_limits<double>::infinity();    ///< [N m] or [N], limit of |tau|
   double max_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s] or [m/s]
-  double lower = -std::numeric_limits<double>::infinity();        ///< [rad] or [m]
-  double upper = std::numeric_limits<double>::infinity();         ///< [rad] or [m]
+  double lower = -std::numeric_limits<double>::infinity();        ///< [rad] or [m] least q
+  double upper = std::numeric_limits<double>::infinity();         ///< [rad] or [m] largest q
 };
 
 /// A moving body. Body 0 is the base; body i > 0 hangs on its parent by the joint number i - 1.
@@ -85,7 +86,9 @@ class ZWANG_EXPORT Model {
   bool has_joints_of(const Model& other) const;
   double total_mass() const;  ///< [kg], moving bodies
 
+  /// The index into `frames()`; nullopt if no frame has this name.
   std::optional<int> find_frame(std::string_view name) const;
+  /// The index j of `joint(j)`, q, qd and tau; nullopt if no joint has this name.
   std::optional<int> find_joint(std::string_view name) const;
 
  private:
@@ -98,22 +101,28 @@ class ZWANG_EXPORT Model {
 };
 
 /// Builds a model link by link, parents first. Throws std::invalid_argument on a model that dynamics cannot
-/// use. Such a model has an unknown parent, a doubled name, a zero axis or a non-finite number. Or a moving
-/// body has mass <= 0, or an inertia that is not positive definite or breaks the triangle rule.
+/// use. The functions that add throw on an unknown parent, a doubled name, a zero axis or a non-finite
+/// number. `build` throws if a moving body has mass <= 0, or an inertia that is not positive definite or
+/// breaks the triangle rule.
 class ZWANG_EXPORT ModelBuilder {
  public:
+  /// `base_inertia` is about the origin of the base's frame, in its axes.
   ModelBuilder(BaseType base_type, std::string base_name, const RigidInertia& base_inertia);
 
   /// Adds a link that hangs on the link (or frame) `parent`. A fixed joint merges it into the body it is
-  /// fixed to; its name stays as a frame.
+  /// fixed to; its name stays as a frame. `pose_in_parent` is X_PJ at q = 0. The axis need not have the
+  /// length 1. `inertia` is about the link's origin, in its axes.
   ModelBuilder& add_link(const std::string& name, const std::string& parent, const Pose& pose_in_parent,
                          const Joint& joint, const RigidInertia& inertia);
   /// Names a frame fixed to the link (or frame) `parent`.
   ModelBuilder& add_frame(const std::string& name, const std::string& parent, const Pose& pose_in_parent);
-  /// Declares the body moved by the joint `joint` a wheel; `wheel.body` is filled in.
+  /// Declares the body moved by the joint `joint` a wheel; `wheel.body` is filled in. The joint turns, and
+  /// the radius is above 0.
   ModelBuilder& add_wheel(const std::string& joint, Wheel wheel);
+  /// [m/s^2] in the world; without a call (0, 0, -9.81).
   ModelBuilder& set_gravity(const Vector3& gravity);
 
+  /// Checks the inertias. The builder may go on.
   Model build() const;
 
  private:

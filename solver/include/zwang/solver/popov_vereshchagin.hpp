@@ -25,13 +25,15 @@ struct AccelerationRow {
   double b = 0.0;           ///< [m/s^2] or [rad/s^2] of spatial acceleration
 };
 
+/// Sized for a model by its constructor, which throws std::invalid_argument on a capacity below 1. qdd,
+/// tau_control and constraint_torque have one entry a joint; nu and residual have one entry a row.
 struct ZWANG_EXPORT ConstrainedMotion {
   explicit ConstrainedMotion(const Model& model, int row_capacity = 64);
 
   Eigen::VectorXd qdd;                     ///< [rad/s^2] or [m/s^2]
   std::vector<MotionVector> acceleration;  ///< Xdd: spatial, of each body, in its coordinates
   Eigen::VectorXd nu;           ///< multipliers [N] or [N m]; the first `rows` count. +A nu acts on the body
-  Eigen::VectorXd residual;     ///< a . Xdd - b by row
+  Eigen::VectorXd residual;     ///< a . Xdd - b by row [m/s^2] or [rad/s^2]
   Eigen::VectorXd tau_control;  ///< feed-forward plus J'A nu [N m] or [N]: with it (and `base_wrench` on a
                                 ///< floating base) plain forward dynamics gives the same qdd
   ForceVector base_wrench;      ///< the part of J'A nu on a floating base, in base coordinates
@@ -40,10 +42,11 @@ struct ZWANG_EXPORT ConstrainedMotion {
   int rank = 0;                       ///< of L, over all rows, the ground's included
 };
 
+/// Solves for one model. Throws std::invalid_argument from its constructors only.
 class ZWANG_EXPORT PopovVereshchagin {
  public:
   struct Settings {
-    int row_capacity = 64;
+    int row_capacity = 64;  ///< above 0
     double damping =
         0.0;  ///< lambda: L + lambda^2 1 instead of L; 0: the rank is found and nu is the one of least norm
   };
@@ -60,8 +63,9 @@ class ZWANG_EXPORT PopovVereshchagin {
   /// untouched.
   [[nodiscard]] Status solve(const State& state, const std::vector<AccelerationRow>& rows,
                              ConstrainedMotion& result) noexcept;
-  /// The textbook form on a fixed base: the base accelerates with Xdd_0 (minus gravity, for a base at rest).
-  /// The model's gravity is left out. So all accelerations, b included, are measured against free fall.
+  /// The textbook form on a fixed base: the base accelerates with Xdd_0 (minus gravity, for a base at rest),
+  /// in base coordinates [rad/s^2, m/s^2]. The model's gravity is left out. So all accelerations, b included,
+  /// are measured against free fall. On any other base the status is `invalid_input`.
   [[nodiscard]] Status solve(const State& state, const std::vector<AccelerationRow>& rows,
                              const MotionVector& base_acceleration, ConstrainedMotion& result) noexcept;
 

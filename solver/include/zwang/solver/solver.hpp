@@ -14,6 +14,7 @@
 
 namespace zwang::solver {
 
+/// The result of a call.
 enum class Status {
   ok,
   invalid_input,      ///< a non-finite number in the state or a row; outputs untouched
@@ -24,6 +25,7 @@ enum class Status {
 };
 ZWANG_EXPORT const char* to_string(Status status) noexcept;
 
+/// The result of a row in one word.
 enum class RowStatus {
   held,            ///< the acceleration meets b (or a one-sided row is met)
   force_limited,   ///< nu at its bound, or a sum that it adds to, as intended
@@ -34,6 +36,7 @@ enum class RowStatus {
 };
 ZWANG_EXPORT const char* to_string(RowStatus status) noexcept;
 
+/// The answer to one row.
 struct RowSolution {
   double nu = 0.0;   ///< the row's constraint force on the robot [N] or [N m]; phi f of a force row; of a sum
                      ///< its value
@@ -50,11 +53,13 @@ struct RowSet {
   double share = 1.0;
 };
 
+/// Sized for a model by its constructor, which throws std::invalid_argument on a capacity below 1.
 struct ZWANG_EXPORT Solution {
   explicit Solution(const Model& model, int row_capacity = 64);
 
-  Eigen::VectorXd tau;  ///< torque to command [N m] or [N], feed-forward included; 0 where there is no motor
-  Eigen::VectorXd qdd;  ///< [rad/s^2] or [m/s^2]
+  /// Torque to command [N m] or [N], one entry a joint, feed-forward included; 0 where there is no motor.
+  Eigen::VectorXd tau;
+  Eigen::VectorXd qdd;                     ///< [rad/s^2] or [m/s^2], one entry a joint
   std::vector<MotionVector> acceleration;  ///< spatial acceleration of each body, in body coordinates
   std::vector<RowSolution> rows;  ///< parallel to the rows of the first set, then to those of the next ones
   int mobility = 0;               ///< freedoms that the ground leaves
@@ -67,13 +72,14 @@ struct ZWANG_EXPORT FreeMotions {
   explicit FreeMotions(const Model& model);
 
   int count = 0;          ///< the mobility; of each matrix the first columns
-  Eigen::MatrixXd joint;  ///< T: acceleration of the joints = T ydd
-  Eigen::MatrixXd base;   ///< B: of the base along its own x, y and about its own z = B ydd
+  Eigen::MatrixXd joint;  ///< T, a line a joint: acceleration of the joints = T ydd
+  Eigen::MatrixXd base;   ///< B, three lines: of the base along its own x, y and about its own z = B ydd
 
   /// Of the solver that wrote them: they stay while no mass of the robot moves in the base's axes.
   std::uint64_t factorisation = 0;
 };
 
+/// Sizes and options, fixed at construction.
 struct Settings {
   int row_capacity = 64;     ///< of all sets together
   int set_capacity = 0;      ///< of the rows of one set; 0: the same
@@ -117,13 +123,13 @@ class ZWANG_EXPORT Solver {
   bool free_motions(FreeMotions& out) const noexcept;
 
   /// Writes a unit force along row `row` of Solution::rows, as the p of FreeMotions, into the first numbers
-  /// of `p`. They are 0 where nothing moves the robot along the row. Call it before the next
-  /// `project_velocity`. Does not allocate, lock, throw or print.
+  /// of `p`, as many as the mobility. They are 0 where nothing moves the robot along the row. `p` has room
+  /// for 6 + joints. Call it before the next `project_velocity`. Does not allocate, lock, throw or print.
   void force_on_motions(int row, Eigen::VectorXd& p) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
   /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the
-  /// rows.
+  /// rows. On any status but `ok` the state is untouched. Does not allocate, lock, throw or print.
   [[nodiscard]] Status project_velocity(State& state) noexcept;
 
  private:

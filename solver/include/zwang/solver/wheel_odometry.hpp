@@ -10,6 +10,7 @@
 
 namespace zwang::solver {
 
+/// The twist of the base by its wheels, and their contradiction.
 struct WheelTwist {
   MotionVector
       twist;     ///< planar, of the base, in base coordinates and at its origin; 0 along what no wheel tells
@@ -26,7 +27,7 @@ class ZWANG_EXPORT WheelOdometry {
  public:
   explicit WheelOdometry(const Model& model);
 
-  /// Reads q and qd of the state only. Does not allocate, lock, throw or print.
+  /// Reads q and qd of the state only, which is sized for the model. Does not allocate, lock, throw or print.
   WheelTwist twist(const State& state) const noexcept;
 
  private:

@@ -7,6 +7,7 @@
 
 namespace zwang::solver {
 
+/// `body`: an index into Model::bodies.
 inline bool turns_wheel(const Model& model, int body) {
   return std::any_of(model.wheels().begin(), model.wheels().end(),
                      [body](const Wheel& wheel) { return wheel.body == body; });
