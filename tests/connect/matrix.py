@@ -59,8 +59,9 @@ def drive_over(middleware, program, task, folder, number):
     """What `drive` and `simulate` say of a run."""
     command, more = command_of(program, task, folder), both.CLOCK + topics_of(task)
     if middleware == "fast":
-        return both.Pair(program, folder, task, command, [], number, more=more).end(within=600)[1:]
-    pair = both.Pair(program, folder, task, command, [], number, ros2="reach: machine", more=more, motors_apart=32)
+        return both.Pair(program, folder, task, command, [], number, more=more, stale_after=both.PATIENCE).end(within=600)[1:]
+    pair = both.Pair(program, folder, task, command, [], number, ros2="reach: machine", more=more, motors_apart=32,
+                     stale_after=both.PATIENCE)
     robot = pair.start_cyclone_robot()
     _, drive, simulate = pair.end(within=600)
     robot.terminate()

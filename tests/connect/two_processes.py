@@ -16,7 +16,7 @@ import sys
 import tempfile
 import time
 
-from pair import CLOCK, EFFORT, SIGNALS, SLACK, STALE_AFTER, TIMEOUT, TWIST, VELOCITY, Pair
+from pair import CLOCK, EFFORT, PATIENCE, SIGNALS, SLACK, STALE_AFTER, TIMEOUT, TWIST, VELOCITY, Pair
 from pair import Unreachable, expect, kill_what_runs, number, resident, skip_unless_long, start, workplace
 
 
@@ -51,10 +51,11 @@ def ends_as_inside_one_process(name, number_of_pair, by_cyclone=False):
             if not Pair.has_cyclone():
                 print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
                 return
-            pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, "reach: machine", more, motors_apart=32)
+            pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, "reach: machine", more, motors_apart=32,
+                        stale_after=PATIENCE)
             robot = pair.start_cyclone_robot()
         else:
-            pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, more=more)
+            pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, more=more, stale_after=PATIENCE)
         try:
             _, drive, simulate = pair.end(within=240)
         except subprocess.TimeoutExpired:  # nobody has commanded it, or it hangs
