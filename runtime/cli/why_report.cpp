@@ -16,6 +16,7 @@ using runtime::WaitedTerm;
 std::string reading(const WaitedTerm& term) {
   std::string text;
   if (term.value) text = with_unit(*term.value, term.unit);
+  if (term.stood > 0.0) text += " for at least " + with_unit(term.stood, "s", 2);
   for (const WaitedSignal& signal : term.signals) text += (text.empty() ? "" : ", ") + in_words(signal);
   return text + term.because;
 }
@@ -63,7 +64,8 @@ std::string why_table(const runtime::Why& why, const lang::Diagnostics& diagnost
   Table table({false, false, false, false});
   for (const WaitedExit& exit : why.waited.exits) {
     table.add({exit.column, to_string(exit.verdict), "-> " + exit.target,
-               "true for " + with_unit(exit.longest, "s") + " at most, needed " +
+               "true " + (exit.times > 1 ? std::to_string(exit.times) + " times, " : std::string()) + "for " +
+                   with_unit(exit.longest, "s") + " at most, needed " +
                    with_unit(exit.needed, "s") + "  (" + place(diagnostics, exit.span) + ")"});
     for (const WaitedTerm& term : exit.terms)
       table.add({"  " + term.text, to_string(term.verdict), "", reading(term)});

@@ -29,11 +29,11 @@ export interface Limit {
   row: string; line: number | null; limit: number; worst: number; margin: number; broken: boolean; unit: string; where: string;
 }
 export interface Term {
-  text: string; is: string; holds_back: boolean; value: number | null; unit: string; because?: string;
+  text: string; is: string; holds_back: boolean; value: number | null; unit: string; because?: string; stood?: number;
   signals?: { name: string; received: boolean; age: number; stale_after: number; words?: string }[];
 }
 export interface Exit {
-  column: string; when: string; line: number | null; to: string; is: string; longest: number; for: number; terms: Term[];
+  column: string; when: string; line: number | null; to: string; is: string; longest: number; times?: number; for: number; terms: Term[];
 }
 export interface Report {
   outcome: string; verdict: string; elapsed: number; seed: number;

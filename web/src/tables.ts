@@ -32,7 +32,8 @@ function place(run: Run, where: string, onLine: OnLine): HTMLElement {
 function reading(term: Term): string {
   // A log of zwang before it had the words has their figures alone.
   const signals = (term.signals ?? []).map((s) => s.words ?? `\`${s.name}\` is ${withUnit(s.age, 's')} old`);
-  return [term.value === null ? '' : withUnit(term.value, term.unit), ...signals, term.because ?? ''].filter(Boolean).join(', ');
+  const stood = term.stood ? ` for at least ${withUnit(term.stood, 's')}` : '';
+  return [term.value === null ? '' : withUnit(term.value, term.unit) + stood, ...signals, term.because ?? ''].filter(Boolean).join(', ');
 }
 
 const signs: Record<string, string> = { true: '✓ true', false: '✗ false', unknown: '? unknown' };
@@ -42,7 +43,7 @@ export function why(run: Run, onLine: OnLine): HTMLElement | null {
   if (!reason || !reason.exits.length) return null;
   const task = run.data.facts['task']?.split('/').at(-1) ?? '';
   const rows = reason.exits.flatMap((exit: Exit) => [
-    h('tr', { class: 'exit' }, cell(exit.when), cell(signs[exit.is] ?? exit.is), cell(`true for ${withUnit(exit.longest, 's')} at most, needed ${withUnit(exit.for, 's')}`),
+    h('tr', { class: 'exit' }, cell(exit.when), cell(signs[exit.is] ?? exit.is), cell(`true ${(exit.times ?? 0) > 1 ? `${exit.times} times, ` : ''}for ${withUnit(exit.longest, 's')} at most, needed ${withUnit(exit.for, 's')}`),
       cell(`→ ${exit.to}`), exit.line ? place(run, `${task}:${exit.line}`, onLine) : cell('')),
     ...exit.terms.map((term) => h('tr', { class: term.holds_back ? 'term holds' : 'term' }, cell(term.text), cell(signs[term.is] ?? term.is), cell(reading(term)), cell(''), cell(''))),
   ]);

@@ -10,6 +10,7 @@
 #include "scenario/expectation.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/simulated_run.hpp"
+#include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::runtime {
 
@@ -126,6 +127,8 @@ class CellWatch final : public SimulatedRunHost {
 
   bool is_interrupted() const noexcept { return interrupted_ != nullptr && interrupted_->load(); }
   const PathWatch& path() const noexcept { return path_; }
+  /// [s] when a hand pressed on the robot first.
+  const std::optional<double>& pushed() const noexcept { return pushed_; }
 
   bool goes_on() override { return !is_interrupted(); }
   bool tick(const Sensed& sensed) override {
@@ -139,6 +142,7 @@ class CellWatch final : public SimulatedRunHost {
     const double share = torque_share(program_.robot, tau_);
     facts_.update(plant_.truth(), plant_.true_state(), share);
     path_.look(plant_.truth());
+    if (plant_.truth().base.hand > 0.0 && !pushed_) pushed_ = plant_.truth().time;
     result_.torque = std::max({result_.torque, share, look_at_partners(plant_, facts_)});
     for (ExpectationWatch& watch : watches_) watch.look(facts_, plant_.truth().time, in_task);
   }
@@ -162,8 +166,21 @@ class CellWatch final : public SimulatedRunHost {
   std::vector<bool> had_stopped_;  ///< by partner
   Eigen::VectorXd tau_;
   PathWatch path_;
+  std::optional<double> pushed_;
   bool has_ticked_ = false;
 };
+
+/// What the plant saw that the robot may not know, behind the reason that it gives.
+std::string met(const Truth& truth, const std::optional<double>& pushed) {
+  std::string text;
+  if (pushed) text += "; a hand pressed on the robot from " + with_unit(*pushed, "s") + " on";
+  for (const ObjectTruth& object : truth.objects) {
+    if (!object.touched || object.latched) continue;
+    text += "; it touched `" + object.name + "` at " + with_unit(*object.touched, "s") + ", with " +
+            with_unit(object.peak_force, "N") + " at most";
+  }
+  return text;
+}
 
 void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, const lang::Program& program,
               std::vector<ExpectationWatch>& watches, const std::atomic<bool>* interrupted,
@@ -194,7 +211,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   result.because = runner.because();
   result.story = story_of(runner, watch.path());
   const std::optional<Why> why = runner.why();
-  if (why && status != PlantStatus::diverged) result.why = why->sentence;
+  if (why && status != PlantStatus::diverged) result.why = why->sentence + met(plant.truth(), watch.pushed());
   if (plant.truth().base.fallen) {
     result.because = describe_fall(plant.truth().base);
     result.why.clear();

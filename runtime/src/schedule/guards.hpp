@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "schedule/condition.hpp"
-#include "schedule/course.hpp"
+#include "schedule/wait_course.hpp"
 
 namespace zwang::runtime {
 
@@ -48,7 +48,7 @@ class Guards {
   double longest(std::size_t exit) const noexcept { return states_[exit].longest_ticks * period_; }
   /// How often it became true since `restart`.
   int times(std::size_t exit) const noexcept { return states_[exit].times; }
-  const Course& course() const noexcept { return course_; }
+  const WaitCourse& course() const noexcept { return course_; }
   /// Whether `values` has all nodes of the exit's condition: false where some of them decided it.
   bool is_whole(std::size_t exit) const noexcept { return states_[exit].is_whole; }
   /// The values of the nodes of the exit's condition at its last evaluation.
@@ -69,7 +69,7 @@ class Guards {
   void keep(GuardedExits& guarded, const Facts& facts) noexcept;
 
   std::vector<double> values_;  ///< by exit, then node
-  Course course_;
+  WaitCourse course_;
   std::size_t most_nodes_;
   double period_;
   Unknown unknown_;

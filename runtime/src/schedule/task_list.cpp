@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "schedule/braking.hpp"
-#include "schedule/course.hpp"
 #include "schedule/plane_norm.hpp"
 #include "schedule/region_fence.hpp"
+#include "schedule/wait_course.hpp"
 #include "zwang/lang/condition_function.hpp"
 
 namespace zwang::runtime {

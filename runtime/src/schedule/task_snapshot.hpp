@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "schedule/course.hpp"
 #include "schedule/signal_table.hpp"
+#include "schedule/wait_course.hpp"
 
 namespace zwang::runtime {
 
@@ -24,7 +24,7 @@ struct TaskSnapshot {
 
   double elapsed = 0.0;  ///< [s] since the task was entered
   std::vector<Exit> exits;
-  Course course;
+  WaitCourse course;
   std::vector<SignalState> signals;
   std::vector<double> required;  ///< of each node of its `require`, when it was asked last
 };

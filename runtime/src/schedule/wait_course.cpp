@@ -1,4 +1,4 @@
-#include "schedule/course.hpp"
+#include "schedule/wait_course.hpp"
 
 namespace zwang::runtime {
 
@@ -17,7 +17,7 @@ std::vector<Compared> comparisons(const std::vector<lang::Exit>& exits) {
   return all;
 }
 
-Trend Course::trend(std::size_t compared, double now, bool is_turned, double period) const noexcept {
+Trend WaitCourse::trend(std::size_t compared, double now, bool is_turned, double period) const noexcept {
   Trend trend;
   if (kept_ == 0 || !std::isfinite(now)) return trend;
   const double sign = is_turned ? -1.0 : 1.0;

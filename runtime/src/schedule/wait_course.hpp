@@ -38,9 +38,9 @@ struct Trend {
 };
 
 /// Does not allocate after construction.
-class Course {
+class WaitCourse {
  public:
-  explicit Course(std::size_t most_compared = 0) : lacks_(most_compared * most_kept) {}
+  explicit WaitCourse(std::size_t most_compared = 0) : lacks_(most_compared * most_kept) {}
 
   void restart() noexcept { kept_ = 0, stride_ = 1, ticks_ = 0; }
   /// Once a tick. Whether this one is to be kept: `keep` follows for each comparison.
