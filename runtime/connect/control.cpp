@@ -13,7 +13,7 @@ namespace zwang::connect {
 namespace {
 
 constexpr auto tell_every = std::chrono::milliseconds(100);
-constexpr int at_least_every = 10;         // of these
+constexpr int at_least_every = 10;  // of these
 
 const char* word_of(Phase phase) {
   switch (phase) {

@@ -46,7 +46,8 @@ class Control {
   /// The program that `note` speaks of from now on; it lives until the next one is named.
   void speak_of(const lang::Program& program);
   /// Of the control thread: neither waits nor allocates. `task` is an index of the program's tasks, beyond
-  /// them of those that brake; `elapsed` [s] since the run began, `progress` and `force` as in RunTaskFeedback.
+  /// them of those that brake; `elapsed` [s] since the run began, `progress` and `force` as in
+  /// RunTaskFeedback.
   void note(int task, double elapsed, double progress, double force) noexcept {
     task_.store(task, std::memory_order_relaxed);
     elapsed_.store(elapsed, std::memory_order_relaxed);

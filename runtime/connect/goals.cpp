@@ -112,7 +112,8 @@ class Goals {
     if (robot_.control.wants_cancel()) return {GoalOutcome::canceled, "cancelled before it began"};
     runtime::Sensed sensed(*program);
     robot_.inbox.fill(sensed);
-    if (const std::string trouble = clock_trouble(robot_.connection, *program, robot_.inbox); !trouble.empty())
+    if (const std::string trouble = clock_trouble(robot_.connection, *program, robot_.inbox);
+        !trouble.empty())
       return refused(trouble);
     robot_.inbox.read_for(*program);
     robot_.outbox.write_for(*program);

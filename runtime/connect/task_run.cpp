@@ -101,10 +101,11 @@ std::string clock_trouble(const lang::Connection& connection, const lang::Progra
   char text[160];
   const double period = program.robot.control_period, longest = runtime::lost_ticks(period) * period;
   if (connection.clock && inbox.clock().step() > longest + 0.5 * period) {
-    std::snprintf(text, sizeof text,
-                  " tells the time every %.3g s, and a robot that ticks every %.3g s is stopped after %.3g s: "
-                  "have the simulator tell it more often",
-                  inbox.clock().step(), period, longest);
+    std::snprintf(
+        text, sizeof text,
+        " tells the time every %.3g s, and a robot that ticks every %.3g s is stopped after %.3g s: "
+        "have the simulator tell it more often",
+        inbox.clock().step(), period, longest);
     return connection.clock->name + text;
   }
   const double age = inbox.clock().time_at(inbox.joints().arrival) - inbox.joints().stamp;

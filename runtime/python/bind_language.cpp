@@ -70,8 +70,8 @@ std::vector<Told> told(const lang::Diagnostics& diagnostics, bool notes) {
   std::vector<Told> all;
   for (const lang::Diagnostic& d : diagnostics.sorted()) {
     if (d.severity == lang::Severity::note && !notes) continue;
-    Told one{d.code,        name_of(d.severity), d.message, d.help, "", 0, 0,
-             d.replacement, d.choices,           edits_of(diagnostics, d)};
+    Told one{d.code,    name_of(d.severity),     d.message, d.help, "", 0, 0, d.replacement,
+             d.choices, edits_of(diagnostics, d)};
     if (d.span.exists()) {
       one.path = diagnostics.source(d.span.source).path;
       one.line = d.span.begin.line;

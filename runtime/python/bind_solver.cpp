@@ -21,14 +21,19 @@ struct Rows {
   std::vector<std::string> names, places;
 };
 
-Rows plan(const ReadProgram& program, const std::string& task) {
+Rows plan(const ReadProgram& program, const std::string& task, const NamedSensed* sensed) {
   int index = 0;
   while (index < static_cast<int>(program.tasks.size()) &&
          program.tasks[static_cast<std::size_t>(index)].name != task)
     ++index;
   if (index == static_cast<int>(program.tasks.size())) throw py::key_error("no task named `" + task + "`");
   const lang::Diagnostics unheard;
-  const runtime::TaskPlan planned = runtime::Planner(program, unheard).plan(index);
+  const runtime::Planner planner(program, unheard);
+  if (sensed != nullptr && (sensed->sensed.state.q.size() != program.robot.model.joint_count() ||
+                            sensed->sensed.signals.size() != program.signals.size()))
+    throw py::value_error("the snapshot is of another program: it has other joints or signals");
+  const runtime::TaskPlan planned =
+      sensed != nullptr ? planner.plan(index, sensed->sensed) : planner.plan(index);
   if (!planned.refused.empty()) throw std::invalid_argument(planned.refused);
   Rows rows;
   for (const runtime::PlannedRow& row : planned.rows) {
@@ -150,7 +155,8 @@ void bind_solver(py::module_& module) {
            "At the start of the scene, or in the state of a Sensed. Raises ValueError for numbers that are "
            "not "
            "finite and for rows of another robot.");
-  module.def("_plan", &plan, arg("program"), arg("task"), py::call_guard<py::gil_scoped_release>());
+  module.def("_plan", &plan, arg("program"), arg("task"), arg("sensed") = py::none(),
+             py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace zwang::python

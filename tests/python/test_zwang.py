@@ -170,6 +170,23 @@ def test_the_torques_of_a_force_row_are_its_lever_arms():
         solver.solve(rows)
 
 
+def test_the_rows_of_another_state():
+    """A velocity row asks for (wanted - v) / T: nothing at rest, and twice as much at twice the speed."""
+    program = zwang.load(WALL_ALIGN)
+    asked = []
+    for speed in (0.0, 0.02, 0.04):
+        sensed = zwang.Sensed(program)
+        sensed.linear[1] = speed
+        rows = program.plan("press", sensed)
+        asked.append(rows.b[rows.name.index("contact.y")])
+    assert asked[0] == 0.0 and asked[1] < 0.0
+    assert asked[2] == pytest.approx(2.0 * asked[1], rel=1e-12)
+    at_start = program.plan("press")
+    assert at_start.name == program.plan("press", zwang.Sensed(program)).name
+    with pytest.raises(ValueError, match="another program"):
+        program.plan("press", zwang.Sensed(zwang.load(SPECS / "hospital.yaml")))
+
+
 def test_what_an_own_plant_raises_comes_out():
     class Broken(zwang.Plant):
         def sense(self, sensed):

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zwang/solver/constraint.hpp"
+
 namespace zwang::lang {
 
 solver::Pose pose_in_base(const solver::Model& model, int body) {

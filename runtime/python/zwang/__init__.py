@@ -53,9 +53,9 @@ def _to_pandas(self):
 Log.to_pandas = _to_pandas
 
 
-def _plan(self, task):
-    """The Rows of a task at the start of its scene, as `zwang plan` prints them."""
-    return _zwang._plan(self, task)
+def _plan(self, task, sensed=None):
+    """The Rows of a task at the start of its scene, as `zwang plan` prints them, or in the state of a Sensed."""
+    return _zwang._plan(self, task, sensed)
 
 
 Program.plan = _plan

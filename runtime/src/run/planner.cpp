@@ -73,8 +73,14 @@ std::set<std::string> signals_of(const lang::Program& program, const lang::Group
 class Look {
  public:
   Look(const lang::Program& program, const lang::Diagnostics& diagnostics,
-       const std::vector<solver::State>& states)
-      : program_(program), diagnostics_(diagnostics), states_(states), state_(states.front()) {}
+       const std::vector<solver::State>& states, Sensed sensed)
+      : program_(program),
+        diagnostics_(diagnostics),
+        states_(states),
+        state_(states.front()),
+        sensed_(std::move(sensed)) {
+    sensed_.state = state_;
+  }
 
   TaskPlan plan(int index) {
     TaskPlan plan;
@@ -83,9 +89,7 @@ class Look {
     plan.notes = notes_of(task);
     try {
       Scheduler scheduler(starting_with(program_, index), program_.robot.control_period);
-      Sensed sensed(program_.robot.model);
-      sensed.state = state_;
-      scheduler.tick(sensed);
+      scheduler.tick(sensed_);
       solver::ConstraintSet& set = scheduler.constraints();
       if (!set.fill(program_.robot.model, state_))
         throw std::invalid_argument("the rows exceed the capacity");
@@ -221,8 +225,9 @@ class Look {
 
   const lang::Program& program_;
   const lang::Diagnostics& diagnostics_;
-  const std::vector<solver::State>& states_;  ///< the start pose first
+  const std::vector<solver::State>& states_;  ///< the one that has the rows first
   const solver::State& state_;
+  Sensed sensed_;
 };
 
 }  // namespace
@@ -237,7 +242,12 @@ Configurations Planner::configurations() const {
 }
 
 TaskPlan Planner::plan(int task) const {
-  return Look(program_, diagnostics_, states_).plan(task);
+  return Look(program_, diagnostics_, states_, Sensed(program_.robot.model)).plan(task);
+}
+
+TaskPlan Planner::plan(int task, const Sensed& at) const {
+  const std::vector<solver::State> states{at.state};
+  return Look(program_, diagnostics_, states, at).plan(task);
 }
 
 }  // namespace zwang::runtime

@@ -9,6 +9,7 @@
 #include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/plant.hpp"
 #include "zwang/solver/base_analysis.hpp"
 #include "zwang/solver/constraint.hpp"
 
@@ -80,6 +81,9 @@ class ZWANG_EXPORT Planner {
   Configurations configurations() const;
   /// `task`: an index into Program::tasks.
   TaskPlan plan(int task) const;
+  /// The same in the state of a snapshot and with its signals: the rows of a task that is entered there. `at`
+  /// is laid out for the program. The spreads are of this state alone.
+  TaskPlan plan(int task, const Sensed& at) const;
 
  private:
   const lang::Program& program_;

@@ -53,8 +53,8 @@ struct GuardCounters {
   std::uint64_t slewed = 0;          ///< calls that cut a torque's rate
 };
 
-/// As many ticks without a good sample stop a robot of this control period [s]: 20, but at least 5, and for 50
-/// ms where those are fewer.
+/// As many ticks without a good sample stop a robot of this control period [s]: 20, but at least 5, and for
+/// 50 ms where those are fewer.
 ZWANG_EXPORT int lost_ticks(double period) noexcept;
 
 class ArmHold;
