@@ -220,7 +220,7 @@ tasks:
     timeout: {after: 3 s, goto: failed}
 )",
                           wall("0.6 m"));
-  expect_words(ended, {"`contact.x.velocity > 0.02 m/s` is false (", " after it was true for ",
+  expect_words(ended, {"`contact.x.velocity > 0.02 m/s` is false (", " after it was true ",
                        " of the 5.000 s that it must hold"});
   EXPECT_EQ(ended.sentence().find("too short"), std::string::npos) << "it comes and goes";
 }

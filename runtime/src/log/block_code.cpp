@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "log/mcap_format.hpp"
 
@@ -45,19 +46,21 @@ void append_number(std::string& bytes, std::uint64_t number, std::size_t size) {
   bytes.append(all, size);
 }
 
-/// From the entry `order` on each minus the one before it.
-void take_differences(std::vector<std::uint64_t>& numbers, std::size_t order) {
-  for (std::size_t i = numbers.size(); i-- > order;) numbers[i] -= numbers[i - 1];
+/// From the entry `order` on each minus the one before it. Returns the bits that they have, folded, together.
+std::uint64_t take_differences(const std::vector<std::uint64_t>& numbers, std::size_t order,
+                               std::vector<std::uint64_t>& differences) {
+  differences.resize(numbers.size());
+  std::copy_n(numbers.begin(), order, differences.begin());
+  std::uint64_t bits = 0;
+  for (std::size_t i = order; i < numbers.size(); ++i) {
+    differences[i] = numbers[i] - numbers[i - 1];
+    bits |= folded(differences[i]);
+  }
+  return bits;
 }
 
 void add_up(std::vector<std::uint64_t>& numbers, std::size_t order) {
   for (std::size_t i = order; i < numbers.size(); ++i) numbers[i] += numbers[i - 1];
-}
-
-std::uint64_t bits_of_all(const std::vector<std::uint64_t>& numbers, std::size_t from) {
-  std::uint64_t bits = 0;
-  for (std::size_t i = from; i < numbers.size(); ++i) bits |= folded(numbers[i]);
-  return bits;
 }
 
 }  // namespace
@@ -120,17 +123,16 @@ bool BlockWriter::append_copy(std::size_t column) {
   return true;
 }
 
-/// A smooth curve has small second and third differences; noise has not.
+/// A smooth curve has small second and third differences; noise has not, and ends the search.
 void BlockWriter::append_differences() {
   std::size_t order = 0, width = sizeof(double) + 1;
-  differences_ = column_;
   for (std::size_t tried = 1; tried <= most_orders && tried < records_; ++tried) {
-    take_differences(differences_, tried);
-    const std::size_t needed = bytes_for(bits_of_all(differences_, tried));
-    if (needed >= width) continue;
+    const std::vector<std::uint64_t>& before = tried == 1 ? column_ : best_;
+    const std::size_t needed = bytes_for(take_differences(before, tried, differences_));
+    if (needed >= width) break;
     width = needed;
     order = tried;
-    best_ = differences_;
+    std::swap(best_, differences_);
   }
   bytes_ += static_cast<char>(order_step * order + width);
   for (std::size_t i = 0; i < order; ++i) append_number(bytes_, best_[i], sizeof(double));
