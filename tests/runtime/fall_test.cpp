@@ -50,6 +50,20 @@ TEST(Fall, NoneOfABaseThatStands) {
   }
 }
 
+// The floor carries what starts: without torque nothing moves, not even by what a step of MuJoCo rounds off.
+TEST(Fall, ABaseStartsWhereTheFloorCarriesIt) {
+  for (const lang::Robot& robot : {mecanum_base(), omni_base(), differential_base()}) {
+    MujocoPlant plant(robot, {});
+    Sensed first(robot.model), later(robot.model);
+    ASSERT_EQ(plant.sense(first), PlantStatus::ok);
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(robot.model.joint_count());
+    for (int i = 0; i < 200; ++i) ASSERT_EQ(plant.apply(rest), PlantStatus::ok);
+    ASSERT_EQ(plant.sense(later), PlantStatus::ok);
+    EXPECT_LT((later.state.base_pose.position - first.state.base_pose.position).norm(), 1e-10);
+    EXPECT_LT((later.state.base_pose.rotation - first.state.base_pose.rotation).norm(), 1e-10);
+  }
+}
+
 // The ball is drawn 0.25 m behind its link, which lies at the base's origin; the mass is 0.1 m behind the
 // axle.
 TEST(Fall, NoneOfABaseOnABallThatIsDrawnBesideItsLink) {

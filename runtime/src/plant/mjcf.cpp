@@ -36,7 +36,7 @@ class MjcfWriter {
     text_ += "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n";
     text_ +=
         "<option integrator=\"Euler\" solver=\"Newton\" cone=\"elliptic\" impratio=\"10\" "
-        "tolerance=\"1e-12\"" +
+        "tolerance=\"1e-12\" collision=\"predefined\"" +
         attribute("timestep", text_of(period)) + attribute("gravity", list_of(first.gravity())) + "/>\n";
     text_ += "<default><geom contype=\"0\" conaffinity=\"0\" condim=\"3\" " + stiff() + "/></default>\n";
     write_assets();
@@ -57,13 +57,15 @@ class MjcfWriter {
   /// As many contact points and constraint rows as there can be at once. MuJoCo takes memory for the square
   /// of the rows and writes zeros to it: 2000 rows take 50 MB and 20 ms at each start.
   void write_size() {
-    constexpr std::size_t points_of_a_pair = 8, rows_of_a_point = 3, rows_of_a_joint = 2, rows_of_a_dock = 3;
+    // A sphere or a roller touches in one point. A hull that fell on the floor is a box or a mesh.
+    constexpr std::size_t points_of_a_hull = 8, rows_of_a_point = 3, rows_of_a_joint = 2, rows_of_a_dock = 3;
     constexpr std::size_t most_points = 500, most_rows = 2000;
     std::size_t joints = 0;
     for (const SimulatedRobot& robot : robots_)
       joints += static_cast<std::size_t>(robot.robot.model.joint_count());
     for (const SceneObject& object : scene_.objects) joints += object.guide ? 1U : 0U;
-    const std::size_t points = std::min(most_points, points_of_a_pair * elements("<pair"));
+    const std::size_t hulls = elements("hull\" condim");
+    const std::size_t points = std::min(most_points, elements("<pair") + (points_of_a_hull - 1) * hulls);
     const std::size_t rows = std::min(most_rows, rows_of_a_point * points + rows_of_a_joint * joints +
                                                      rows_of_a_dock * elements("<connect"));
     text_ += "<size" + attribute("nconmax", std::to_string(points)) +

@@ -104,6 +104,10 @@ void MovingRobot::hold_joints(mjData& d) const noexcept {
   }
 }
 
+Vector3 MovingRobot::sinking(const mjData& d) const noexcept {
+  return vector_of(d.qacc + base_velocity_ + 2);
+}
+
 void MovingRobot::stand(mjData& d, double yaw, double height, const Matrix3& tilted) const noexcept {
   const double turn = yaw - std::atan2(tilted(1, 0), tilted(0, 0));
   const Eigen::Quaterniond turned(Eigen::AngleAxisd(turn, Vector3::UnitZ()) * tilted);

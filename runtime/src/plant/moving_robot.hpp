@@ -35,6 +35,8 @@ class MovingRobot {
 
   /// The base at this place, its joints in their posture.
   void place(mjModel_& m, mjData_& d, const std::array<double, 2>& at, double yaw);
+  /// Vertical [m/s^2], and about the base's own x and y. [rad/s^2]
+  solver::Vector3 sinking(const mjData_& d) const noexcept;
   /// While the robot settles: joints other than the wheels keep their posture, and bear what hangs on them.
   void hold_joints(mjData_& d) const noexcept;
   /// As `standing`, but with the height and the tilt that the base has now, at the heading `yaw`.

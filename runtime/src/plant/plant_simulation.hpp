@@ -1,10 +1,11 @@
 /// The simulation behind MujocoPlant: MuJoCo's model and data, the robots and objects in them, what is true
-/// of them. It is set up in plant_start.cpp, and stepped and read in mujoco_plant.cpp.
+/// of them. It is set up in plant_start.cpp and plant_settle.cpp, and stepped and read in mujoco_plant.cpp.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,17 @@ struct MujocoPlant::Simulation {
   /// t = 0. Height and tilt of the settled base are kept.
   void start(const std::vector<Start>& starts);
   void settle(const std::vector<Start>& starts);
+  /// Of a robot on the floor: height [m], roll and pitch [rad] of its base, or how fast each of them changes
+  /// its speed.
+  using Lean = solver::Vector3;
+  void lean(const std::vector<Start>& starts, const std::vector<Lean>& leans) noexcept;
+  /// Accelerations of robots that lean so, at rest and without torque; nothing if MuJoCo fails.
+  std::optional<std::vector<Lean>> accelerations(const std::vector<Start>& starts,
+                                                 const std::vector<Lean>& leans);
+  /// Where the floor carries every robot, near `at`; nothing if one of them is not firm there.
+  std::optional<std::vector<Lean>> find_rest(const std::vector<Start>& starts, std::vector<Lean> at);
+  /// The same by time that passes: also of robots that fall meanwhile.
+  void drop(const std::vector<Start>& starts);
   void refuse_overlap() const;
   std::string name_of(const GeomOwner& owner) const;
 

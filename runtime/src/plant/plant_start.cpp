@@ -1,5 +1,5 @@
-// How the simulation comes to stand where the scene says. MuJoCo's model is written and read, its parts are
-// found, and the robots settle on the floor.
+// How the simulation comes to stand where the scene says. MuJoCo's model is written and read, and its parts
+// are found. The robots settle on the floor in plant_settle.cpp.
 #include <mujoco/mujoco.h>
 
 #include <cstdio>
@@ -14,9 +14,6 @@ namespace zwang::runtime {
 
 namespace {
 
-using solver::Matrix3;
-
-constexpr double settling_time = 0.5;   ///< [s] before t = 0, without torque
 constexpr double start_overlap = 1e-5;  ///< [m] allowed between robot and objects at the start
 
 std::string numbered(const char* name, int number) {
@@ -170,28 +167,6 @@ void MujocoPlant::Simulation::start(const std::vector<Start>& starts) {
   look_for_falls();
   truth.velocity.setZero();
   truth.acceleration.setZero();
-}
-
-void MujocoPlant::Simulation::settle(const std::vector<Start>& starts) {
-  const std::vector<mjtNum> standing(data->qpos, data->qpos + model->nq);
-  const int steps = static_cast<int>(settling_time / model->opt.timestep);
-  for (int i = 0; i < steps; ++i) {
-    if (!step()) refuse("the simulation diverges while the robot settles on the floor");
-    for (const MovingRobot& robot : robots) robot.hold_joints(*data);
-  }
-  std::fill(data->qfrc_applied, data->qfrc_applied + model->nv, 0.0);
-  std::vector<std::pair<double, Matrix3>> settled;
-  for (MovingRobot& robot : robots) {
-    robot.forget_bristles();
-    settled.emplace_back(robot.base_position(*model, *data).z(), robot.base_rotation(*model, *data));
-  }
-  std::copy(standing.begin(), standing.end(), data->qpos);
-  for (std::size_t r = 0; r < robots.size(); ++r) {
-    if (robots[r].is_on_ground()) robots[r].stand(*data, starts[r].yaw, settled[r].first, settled[r].second);
-  }
-  std::fill(data->qvel, data->qvel + model->nv, 0.0);
-  data->time = 0.0;
-  if (!guarded(mj_forward, model.get(), data.get())) refuse("MuJoCo fails at the start pose");
 }
 
 void MujocoPlant::Simulation::refuse_overlap() const {

@@ -106,12 +106,17 @@ int collide_along(const mjModel* m, const mjData* d, mjContact* contact, int pla
   return count;
 }
 
-struct VirtualFiles {
-  VirtualFiles() { mj_defaultVFS(&vfs); }
-  ~VirtualFiles() { mj_deleteVFS(&vfs); }
-  VirtualFiles(const VirtualFiles&) = delete;
-  VirtualFiles& operator=(const VirtualFiles&) = delete;
-  mjVFS vfs;
+/// One file that only MuJoCo's reader sees. The table of names has two megabytes of zeros: `calloc` gives
+/// them without a write, which `mj_defaultVFS` would be.
+struct VirtualFile {
+  VirtualFile() : vfs(static_cast<mjVFS*>(std::calloc(1, sizeof(mjVFS)))) {}
+  ~VirtualFile() {
+    if (vfs != nullptr && vfs->nfile > 0) mju_free(vfs->filedata[0]);
+    std::free(vfs);
+  }
+  VirtualFile(const VirtualFile&) = delete;
+  VirtualFile& operator=(const VirtualFile&) = delete;
+  mjVFS* vfs;
 };
 
 /// The body's mass and inertia as MuJoCo has them must be the ones that were written.
@@ -193,13 +198,14 @@ ModelPointer compile(const std::string& mjcf) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   const char* const file = "plant.xml";
-  const auto files = std::make_unique<VirtualFiles>();  // two megabytes: not for the stack
-  if (mj_makeEmptyFileVFS(&files->vfs, file, static_cast<int>(mjcf.size())) != 0) {
+  const VirtualFile virtual_file;
+  mjVFS* const vfs = virtual_file.vfs;
+  if (vfs == nullptr || mj_makeEmptyFileVFS(vfs, file, static_cast<int>(mjcf.size())) != 0) {
     refuse("the simulation's text does not fit MuJoCo's virtual files");
   }
-  std::memcpy(files->vfs.filedata[mj_findFileVFS(&files->vfs, file)], mjcf.data(), mjcf.size());
+  std::memcpy(vfs->filedata[0], mjcf.data(), mjcf.size());
   std::array<char, 1000> error{};
-  ModelPointer model(mj_loadXML(file, &files->vfs, error.data(), static_cast<int>(error.size())));
+  ModelPointer model(mj_loadXML(file, vfs, error.data(), static_cast<int>(error.size())));
   if (!model || error[0] != '\0') refuse(std::string("MuJoCo refuses the simulation: ") + error.data());
   return model;
 }
