@@ -339,6 +339,9 @@ std::string sideways(const std::string& base) {
   text = std::regex_replace(text, std::regex("axis xyz='0 1 0'"), "axis xyz='1 0 0'");
   text = std::regex_replace(text, std::regex("rpy='1.5707963 0 0'"), "rpy='0 1.5707963 0'");
   text = std::regex_replace(text, std::regex("size='.6 .4 .1'"), "size='.4 .6 .1'");
+  // Above the axle the mass would lie on the edge of what carries it.
+  text = std::regex_replace(text, std::regex("<mass value='20'/>"),
+                            "<origin xyz='0 -.02 0'/><mass value='20'/>");
   return std::regex_replace(text, std::regex("chassis"), base);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "../temporary_folder.hpp"
@@ -109,15 +110,28 @@ TEST(Footing, ASupportStandsBelowItsBall) {
   EXPECT_NEAR(aside->inside, at_origin->inside, 1e-9);
 }
 
-// A ball on the axle: three points on a line carry a mass above it, and no other.
+// A ball on the axle: of three points on a line every point is an edge, and a mass above it falls, too.
 TEST(Footing, AMassBesideALineOfPointsIsRefused) {
   const std::string ball = R"(<link name="ball"/>)";
   std::string code;
   EXPECT_FALSE(footing_with("-0.1 0 0.1", "ball", &code, ball, "0 0 0"));
   EXPECT_EQ(code, "E640");
   code.clear();
-  EXPECT_TRUE(footing_with("0 0 0.1", "ball", &code, ball, "0 0 0"));
-  EXPECT_EQ(code, "");
+  EXPECT_FALSE(footing_with("0 0 0.1", "ball", &code, ball, "0 0 0"));
+  EXPECT_EQ(code, "E640");
+}
+
+// The 22 kg lie 20/22 of the first number ahead of the axle, 0.1 m high. A floor tips them from
+// atan(inside / height) on: 0.5 deg are 0.873 mm.
+TEST(Footing, AMassNextToTheEdgeIsTold) {
+  const double least = 0.1 * std::tan(least_lean);
+  for (const auto& [inside, expected] : {std::pair{0.0, "E640"}, {0.9 * least, "W640"}, {1.1 * least, ""}}) {
+    std::string code;
+    const auto footing = footing_with(std::to_string(inside * 1.1) + " 0 0.1", "ball", &code);
+    EXPECT_EQ(code, expected) << inside;
+    EXPECT_EQ(footing.has_value(), code != "E640");
+    if (footing) EXPECT_NEAR(footing->lean(), std::atan(inside / 0.1), 1e-4);
+  }
 }
 
 }  // namespace

@@ -301,6 +301,15 @@ Diagnostic starts_inside(const Span& span, const std::string& robot, const std::
                "move one of them: the footprint of a robot must be clear of what it could touch");
 }
 
+Diagnostic objects_overlap(const Span& span, const std::string& one, const std::string& other, double depth,
+                           const Span& other_span) {
+  return with_related(error("E913", span,
+                            in_ticks(one) + " starts inside " + in_ticks(other) + ": they overlap by " +
+                                in_length(depth) + ", and their contact throws them apart",
+                            "move one of them by " + in_length(depth) + " at least"),
+                      other_span, in_ticks(other) + " stands here");
+}
+
 Diagnostic plant_refuses(const Span& span, const std::string& reason) {
   return error("E915", span, "the simulated plant cannot start: " + reason,
                "change the part that it names: `run` and `test` start with the simulated plant");

@@ -127,6 +127,9 @@ Diagnostic beyond_all_bodies(const Span& span, const std::string& link, const st
 Diagnostic limit_without_width(const Span& span, const std::string& what);
 /// `depth`: how far one of the two has to move for them to part. [m]
 Diagnostic starts_inside(const Span& span, const std::string& robot, const std::string& other, double depth);
+/// Two objects, of which one can be pushed at least. `depth` [m]
+Diagnostic objects_overlap(const Span& span, const std::string& one, const std::string& other, double depth,
+                           const Span& other_span);
 
 /// The simulated plant refuses to start; `reason` says why.
 Diagnostic plant_refuses(const Span& span, const std::string& reason);

@@ -22,11 +22,22 @@ double rounded_down(double value) {
 Diagnostic falls_over(const Span& span, const std::string& base, double outside, bool has_supports) {
   return error(
       "E640", span,
-      "`" + base + "` falls over as it stands: its mass lies " + figure(outside * 1e3, "mm") +
-          " outside its wheels and supports",
+      "`" + base + "` falls over as it stands: its mass lies " +
+          (outside > 0.0 ? figure(outside * 1e3, "mm") + " outside" : std::string("on the edge of")) +
+          " its wheels and supports",
       std::string("name the links that also carry it in `supports`, or mend the masses and places in "
                   "the URDF") +
           (has_supports ? "; a base on two wheels that names none stands on its footprint" : ""));
+}
+
+Diagnostic stands_on_edge(const Span& span, const std::string& base, double inside, double height,
+                          double lean) {
+  return warning(
+      "W640", span,
+      "`" + base + "` stands on the edge of its wheels and supports: its mass lies " +
+          figure(inside * 1e3, "mm") + " inside them and " + figure(height * 1e3, "mm") +
+          " high, so a floor that leans by " + angle_in_degrees(lean) + " tips it over",
+      "name the links that also carry it in `supports`, or mend the masses and places in the URDF");
 }
 
 Diagnostic tips_by_acceleration(const Span& span, const std::string& axis, double asked, double tips,
@@ -68,6 +79,15 @@ Diagnostic meets_or_passes(const Span& span, const std::string& base, const std:
                      base + "` does not say how high it touches: a bumper at " + figure(assumed * 1e3, "mm") +
                      " is assumed, so it " + (height < assumed ? "passes" : "meets") + " `" + object + "`",
                  "write `bumper: {height: ..}` in the robot file");
+}
+
+Diagnostic passes_all(const Span& span, const std::string& base, const std::string& object, double height,
+                      double bumper) {
+  return warning("W644", span,
+                 "`" + base + "` touches at " + figure(bumper, "m") + " and passes above every object: `" +
+                     object + "`, the highest, is " + figure(height, "m") + " high",
+                 "write `bumper: {height: ..}` in the robot file as it is measured, from the floor to where "
+                 "the base touches first");
 }
 
 Diagnostic stops_beyond_the_floor(const Span& span, double asked, double held, double friction) {

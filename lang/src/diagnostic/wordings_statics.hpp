@@ -8,8 +8,13 @@
 
 namespace zwang::lang::wording {
 
-/// `outside`: of the mass beyond the supports [m], above 0. `has_supports`: the robot file names some.
+/// `outside`: of the mass beyond the supports [m], or 0 on their edge. `has_supports`: the robot file names
+/// some.
 Diagnostic falls_over(const Span& span, const std::string& base, double outside, bool has_supports);
+/// The mass lies `inside` [m] the supports and `height` [m] above the floor. A floor that leans by `lean`
+/// [rad] tips it.
+Diagnostic stands_on_edge(const Span& span, const std::string& base, double inside, double height,
+                          double lean);
 /// `asked`, `tips` [m/s^2]; the mass lies `inside` [m] its supports and `height` [m] above the floor.
 Diagnostic tips_by_acceleration(const Span& span, const std::string& axis, double asked, double tips,
                                 double inside, double height);
@@ -22,6 +27,9 @@ Diagnostic unknown_bumper_height(const Span& span, const std::string& axis, doub
 /// An object that a bumper of unknown height may pass. `height` of the object, `assumed` of the bumper. [m]
 Diagnostic meets_or_passes(const Span& span, const std::string& base, const std::string& object,
                            double height, double assumed);
+/// A bumper above all objects of the scene. `height` of the highest, `bumper` [m].
+Diagnostic passes_all(const Span& span, const std::string& base, const std::string& object, double height,
+                      double bumper);
 /// `asked`, `held` [m/s^2]: the stop's brake, and what the floor holds.
 Diagnostic stops_beyond_the_floor(const Span& span, double asked, double held, double friction);
 /// `asked`, `held` [N]: the floor's friction times `load` [N].

@@ -92,7 +92,7 @@ void ask_push(const PlannedTask& plan, const PlannedAxis& axis, const Vector3& a
 
 void ask_tipping(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& probe, Remarks& remarks) {
   const std::optional<Footing> footing = footing_of(probe.robot());
-  if (!footing || !(footing->inside > 0.0)) return;
+  if (!footing || footing->is_on_edge()) return;  // the robot file is told so
   for (const PlannedAxis& axis : plan.axes) {
     if (!is_of_the_base(axis) || probe.is_out_of_plane(axis)) continue;
     const Vector3 along = direction_in_base(axis, probe, scene);
@@ -103,7 +103,7 @@ void ask_tipping(const PlannedTask& plan, const std::optional<Scene>& scene, Pro
 
 void ask_stop(const Span& span, Probe& probe, Remarks& remarks) {
   const std::optional<Footing> footing = footing_of(probe.robot());
-  if (!footing || !(footing->inside > 0.0)) return;
+  if (!footing || footing->is_on_edge()) return;  // the robot file is told so
   const double tips = footing->tipping_deceleration(probe.base_mobility() >= 3);
   const double asked = probe.robot().stop.deceleration;
   if (asked > tips) remarks.add(wording::tips_by_stop(span, asked, tips));

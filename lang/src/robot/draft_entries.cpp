@@ -154,12 +154,25 @@ std::string stop_entry(double mass, double deceleration, const std::string& open
          a + ".\nstop: {deceleration: " + a + ", force: " + force + "}\n";
 }
 
+void add_edge_note(RobotDraft& draft) {
+  for (const AssumedRobot& assumed : draft.assumed) {
+    const std::optional<Footing> footing = footing_of(assumed.robot);
+    if (!footing || !footing->is_on_edge()) continue;
+    const std::string where = wording::figure(std::abs(footing->inside) * 1e3, "mm") +
+                              (footing->inside < 0.0 ? " outside" : " inside");
+    draft.missing.push_back("a centre of mass well inside the supports: it lies " + where +
+                            " their edge and " + wording::figure(footing->height * 1e3, "mm") +
+                            " high, and the base tips over (W640); name more `supports`, or mend the masses");
+    return;
+  }
+}
+
 double steady_deceleration(const RobotDraft& draft) {
   double least = solver::infinity;
   for (const AssumedRobot& assumed : draft.assumed) {
     const Robot& robot = assumed.robot;
     const std::optional<Footing> footing = footing_of(robot);
-    if (!footing || !(footing->inside > 0.0)) continue;
+    if (!footing || footing->is_on_edge()) continue;  // no brake is gentle enough
     // On fewer points than three the base stands on its outline.
     const bool is_known = draft.outline_is_known || footing->wheels + robot.supports.size() >= 3;
     const bool has_swivels = std::any_of(draft.wheels.begin(), draft.wheels.end(),

@@ -38,6 +38,9 @@ std::string mimic_entry(const Urdf& urdf, const FoundWheels& found);
 /// `stop`, at this deceleration [m/s^2], of a mass [kg]; 0: not known, and the force is `open`.
 std::string stop_entry(double mass, double deceleration, const std::string& open);
 
+/// Says in `missing` that the mass lies on the edge of what carries the base, where it does.
+void add_edge_note(RobotDraft& draft);
+
 /// The deceleration [m/s^2], rounded down, within which no model of the draft tips over (W640). Infinite
 /// where nothing is known to carry the base.
 double steady_deceleration(const RobotDraft& draft);

@@ -374,6 +374,7 @@ RobotDraft with_assumptions(Drafter& drafter, const Urdf& urdf) {
       break;
     }
   }
+  add_edge_note(draft);
   return draft;
 }
 

@@ -61,6 +61,16 @@ double distance_inside(const Footing& footing) {
 
 }  // namespace
 
+double Footing::lean() const {
+  return std::atan2(inside, std::max(height, 1e-9));
+}
+
+bool Footing::is_on_edge() const {
+  // Of two points nobody knows what else carries the base: only a mass beside them is wrong for certain.
+  if (points.size() < 3) return inside < -rounding_of_places;
+  return inside <= rounding_of_places || lean() < least_lean;
+}
+
 double Footing::arm_behind(const Vector3& direction) const {
   const std::vector<Vector3> hull = plane::convex_hull(points);
   if (hull.empty()) return 0.0;

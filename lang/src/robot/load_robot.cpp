@@ -210,13 +210,18 @@ class RobotBuilder {
     }
   }
 
-  /// E640 where the mass lies outside of what carries it, or beside points on a line.
+  /// E640 where the mass lies outside of what carries it, on its edge, or beside points on a line. W640 where
+  /// it lies next to the edge.
   bool stands(const Robot& robot) {
     const std::optional<Footing> footing = footing_of(robot);
-    if (!footing || footing->inside >= -rounding) return true;
+    if (!footing || !footing->is_on_edge()) return true;
     const Span& span = file_.supports.empty() ? file_.base.span : file_.supports.front().span;
-    diagnostics_.add(wording::falls_over(span, robot.name, -footing->inside, !file_.supports.empty()));
-    return false;
+    const bool falls = footing->inside <= rounding_of_places;
+    const double outside = footing->inside < -rounding_of_places ? -footing->inside : 0.0;
+    diagnostics_.add(
+        falls ? wording::falls_over(span, robot.name, outside, !file_.supports.empty())
+              : wording::stands_on_edge(span, robot.name, footing->inside, footing->height, footing->lean()));
+    return !falls;
   }
 
   /// Adds the model builder's complaint at the first part that it names.
@@ -237,8 +242,6 @@ class RobotBuilder {
     }
     return file_.base.span;
   }
-
-  static constexpr double rounding = 1e-6;  ///< [m] of places in a file
 
   const RobotFile& file_;
   Urdf urdf_;

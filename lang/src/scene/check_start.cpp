@@ -1,17 +1,11 @@
-// Two convex outlines overlap where no line parts them. The line that comes nearest to it lies along an edge
-// of one of them:
-//
-//   depth = least over the edges' outward normals n of   max_a n'a - min_b n'b
-//
-// and is how far one has to move for them to part. A circle is its centre's depth plus its radius.
 #include "scene/check_start.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "diagnostic/wordings_standing.hpp"
 #include "diagnostic/wordings_statics.hpp"
 #include "scene/outline.hpp"
+#include "scene/overlap.hpp"
 #include "zwang/lang/footing.hpp"
 #include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
@@ -22,45 +16,6 @@ namespace zwang::lang {
 namespace {
 
 using solver::Vector3;
-
-constexpr double touching = 1e-4;  ///< [m] by so much what touches may overlap
-
-/// The least way over the edges of `a` only; below 0 they are apart.
-double depth_by_edges(const Outline& a, const Outline& b) {
-  double least = solver::infinity;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Vector3 edge = a[(i + 1) % a.size()] - a[i];
-    if (edge.norm() < 1e-9) continue;
-    const Vector3 normal = Vector3(edge.y(), -edge.x(), 0.0).normalized();
-    double nearest = solver::infinity;
-    for (const Vector3& p : b) nearest = std::min(nearest, normal.dot(p - a[i]));
-    least = std::min(least, -nearest);
-  }
-  return least;
-}
-
-double depth(const Outline& a, const Outline& b) {
-  return std::min(depth_by_edges(a, b), depth_by_edges(b, a));
-}
-
-double depth(const Outline& a, const Vector3& centre, double radius) {
-  const double inside = depth_by_edges(a, {centre});
-  if (inside >= 0.0) return inside + radius;
-  return radius - plane::distance_to_edges(a, centre);
-}
-
-/// Where it stands at the start: a script that begins later holds its first place.
-Pose2 start_of(const SceneObject& object) {
-  if (object.motion.empty()) return {object.at, object.yaw};
-  return {object.motion.front().at, object.motion.front().yaw};
-}
-
-/// `height` [m] is the bumper's.
-double depth(const Outline& robot, const SceneObject& object, double height) {
-  const Pose2 pose = start_of(object);
-  if (object.shape == ShapeKind::cylinder) return depth(robot, {pose.at[0], pose.at[1], 0.0}, object.size[0]);
-  return depth(robot, placed(outline_of(object, height), pose));
-}
 
 /// The largest height [m] of a bumper whose height the robot file does not give. An even body is twice as
 /// high as its centre of mass. 0: the height is given, or the robot has no footing.
@@ -78,7 +33,46 @@ struct Standing {
   Span span;
 };
 
+/// What a guide carries passes what is fixed: a drawer stands in its cabinet, a door in its frame.
+bool meet(const SceneObject& one, const SceneObject& other) {
+  if (one.guide && other.guide) return false;
+  return (!one.guide || other.moves()) && (!other.guide || one.moves());
+}
+
+/// E913 of objects that the contact between them would throw apart. At least one of them gives way to a push.
+/// `height` [m] of the lowest bumper: the plant leaves lower objects out.
+void check_objects(const Scene& scene, double height, Diagnostics& diagnostics) {
+  const auto& objects = scene.objects;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (std::size_t other = 0; other < i; ++other) {
+      const bool gives_way = objects[i].inverse_mass() > 0.0 || objects[other].inverse_mass() > 0.0;
+      if (!gives_way || !meet(objects[i], objects[other])) continue;
+      if (!reaches(objects[i], height) || !reaches(objects[other], height)) continue;
+      const double depth = overlap(objects[i], objects[other], height);
+      if (depth > touching)
+        diagnostics.add(wording::objects_overlap(objects[i].span, objects[i].name, objects[other].name, depth,
+                                                 objects[other].span));
+    }
+  }
+}
+
+/// W644 of a bumper above all that the scene has.
+void check_bumper(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
+  const SceneObject* highest = nullptr;
+  for (const SceneObject& object : scene.objects) {
+    if (object.leans() ? reaches(object, robot.bumper_height) : object.size[2] >= robot.bumper_height) return;
+    if (highest == nullptr || object.size[2] > highest->size[2]) highest = &object;
+  }
+  if (highest != nullptr)
+    diagnostics.add(
+        wording::passes_all(highest->span, robot.name, highest->name, highest->size[2], robot.bumper_height));
+}
+
 }  // namespace
+
+void check_objects_at_start(const Scene& scene, Diagnostics& diagnostics) {
+  check_objects(scene, Robot{}.bumper_height, diagnostics);
+}
 
 void check_start(const Scene& scene, const Robot& first, Diagnostics& diagnostics) {
   std::vector<Standing> robots;
@@ -94,23 +88,27 @@ void check_start(const Scene& scene, const Robot& first, Diagnostics& diagnostic
       stand("robot `" + other.name + "`", other.name, other.program->robot, {other.at, other.yaw},
             other.span);
   }
+  double lowest = first.bumper_height;
+  for (const Standing& robot : robots) lowest = std::min(lowest, robot.robot->bumper_height);
+  check_objects(scene, lowest, diagnostics);
   for (std::size_t r = 0; r < robots.size(); ++r) {
     const Standing& robot = robots[r];
     const double highest = highest_bumper(*robot.robot);
+    if (robot.robot->bumper_height_said) check_bumper(scene, *robot.robot, diagnostics);
     for (const SceneObject& object : scene.objects) {
       if (object.size[2] < highest)
         diagnostics.add(wording::meets_or_passes(object.span, robot.robot->name, object.name, object.size[2],
                                                  robot.robot->bumper_height));
       const double height = robot.robot->bumper_height;
       if (!reaches(object, height)) continue;  // the robot passes
-      const double overlap = depth(robot.outline, object, height);
-      if (overlap > touching)
-        diagnostics.add(wording::starts_inside(object.span, robot.words, object.name, overlap));
+      const double depth = overlap(robot.outline, object, height);
+      if (depth > touching)
+        diagnostics.add(wording::starts_inside(object.span, robot.words, object.name, depth));
     }
     for (std::size_t other = r + 1; other < robots.size(); ++other) {
-      const double overlap = depth(robot.outline, robots[other].outline);
-      if (overlap > touching)
-        diagnostics.add(wording::starts_inside(robots[other].span, robot.words, robots[other].name, overlap));
+      const double depth = overlap(robot.outline, robots[other].outline);
+      if (depth > touching)
+        diagnostics.add(wording::starts_inside(robots[other].span, robot.words, robots[other].name, depth));
     }
   }
 }

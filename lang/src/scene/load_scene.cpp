@@ -7,6 +7,7 @@
 #include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_scene.hpp"
+#include "scene/check_start.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_guide.hpp"
 #include "scene/load_pushes.hpp"
@@ -345,8 +346,9 @@ std::optional<Scene> read_scene(int source, Diagnostics& diagnostics) {
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
   double budget = whole_budget;
   std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, budget, diagnostics);
+  if (scene) check_objects_at_start(*scene, diagnostics);
   diagnostics.settle();
-  return scene;
+  return diagnostics.has_errors() ? std::nullopt : scene;
 }
 
 }  // namespace zwang::lang

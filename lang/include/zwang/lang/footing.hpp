@@ -9,6 +9,11 @@
 
 namespace zwang::lang {
 
+/// [rad] 0.5 deg: floors that count as level lean by 0.3 deg, and masses are known to a few millimetres.
+inline constexpr double least_lean = 0.5 * 3.14159265358979 / 180.0;
+
+inline constexpr double rounding_of_places = 1e-6;  ///< [m] of places in a file
+
 /// At the start posture, on a level floor, in the axes of the base frame.
 struct ZWANG_EXPORT Footing {
   std::vector<solver::Vector3> points;  ///< [m] where wheels, then supports, meet the floor
@@ -21,6 +26,11 @@ struct ZWANG_EXPORT Footing {
   /// outside of it. Points on a line have no inside.
   double inside = 0.0;
 
+  /// [rad] By so much a floor may lean before the base tips over: atan(inside / height). Below 0 it falls as
+  /// it stands.
+  double lean() const;
+  /// Whether a floor as level as builders make it, within `least_lean`, tips the base over.
+  bool is_on_edge() const;
   /// The largest acceleration [m/s^2] along `direction`, a unit vector in the plane, that lifts no point.
   /// Beyond it the base tips over an edge behind: a h > g d, d from the centre to that edge.
   double tipping_acceleration(const solver::Vector3& direction) const;
