@@ -54,6 +54,19 @@ class Story {
   std::size_t task_ = 0, event_ = 0, signal_ = 0;
 };
 
+/// The events as the run's report told them. While samples stay away, records repeat the time of the last
+/// one. A run that was cut off has no report: then those of the records.
+std::vector<ToldEvent> events_of(const runtime::LogContents& log, const std::vector<ToldEvent>& of_records) {
+  const auto report = log.conclusion.find("report");
+  if (report == log.conclusion.end()) return of_records;
+  const ordered_json told = ordered_json::parse(report->second, nullptr, false);
+  if (!told.is_object() || !told.contains("events") || !told["events"].is_array()) return of_records;
+  std::vector<ToldEvent> events;
+  for (const ordered_json& e : told["events"])
+    events.push_back({e.value("time", 0.0), e.value("code", ""), e.value("signal", "")});
+  return events;
+}
+
 ordered_json said_at_the_end(const runtime::LogContents& log, const std::string& what) {
   const auto said = log.conclusion.find(what);
   return said == log.conclusion.end() ? ordered_json(nullptr) : ordered_json(said->second);
@@ -124,12 +137,13 @@ int info(const InfoArguments& arguments) {
   const runtime::LogContents log = runtime::read_log(
       arguments.file, [&story](double time, std::span<const double> values) { story.take(time, values); },
       [&story](const runtime::LogContents& head) { story.begin(head); });
+  const std::vector<ToldEvent> events = events_of(log, story.events);
   if (arguments.format == Format::json) {
-    print_data(as_json(arguments.file, log, story.tasks, story.events)
+    print_data(as_json(arguments.file, log, story.tasks, events)
                    .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
                "\n");
   } else {
-    print(as_text(arguments.file, log, story.tasks, story.events));
+    print(as_text(arguments.file, log, story.tasks, events));
   }
   return log.closed && log.damage.empty() ? exit_good : exit_bad;
 }

@@ -40,6 +40,16 @@ void write(const fs::path& file, const std::string& text) {
   write_file(file.string(), text);
 }
 
+/// Half a folder is none: the disk may be full. The folder was empty, or not there.
+void take_back(const fs::path& folder, bool was_there) {
+  std::error_code error;
+  if (!was_there) {
+    fs::remove_all(folder, error);
+    return;
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) fs::remove_all(entry, error);
+}
+
 }  // namespace
 
 int init(const InitArguments& arguments) {
@@ -51,6 +61,7 @@ int init(const InitArguments& arguments) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw Impossible(arguments.folder + ": is there already; name a folder that is new or empty");
+  const bool was_there = fs::exists(folder, error);
   try {
     for (const char* file : {".zwang-root", "wall_align.yaml", "robots/mecanum_base.yaml",
                              "robots/mecanum_base.urdf", "scenes/wall.yaml", "scenes/wall_far.yaml"}) {
@@ -61,7 +72,11 @@ int init(const InitArguments& arguments) {
     write(folder / ".vscode/settings.json", editor_settings);
     for (const auto& [name, kind] : schema_kinds)
       write(folder / "schemas" / (name + ".json"), lang::json_schema(kind));
+  } catch (const Impossible&) {
+    take_back(folder, was_there);
+    throw;
   } catch (const fs::filesystem_error& failure) {
+    take_back(folder, was_there);
     throw Impossible(failure.path1().string() + ": " + failure.code().message());
   }
   print(arguments.folder + ": written\n\n  cd " + arguments.folder +

@@ -1,5 +1,3 @@
-#include <fstream>
-
 #include "output.hpp"
 #include "run_log.hpp"
 #include "verbs.hpp"
@@ -19,9 +17,9 @@ int log(const LogArguments& arguments) {
   require_log(arguments.run);
   runtime::LogContents log;
   if (arguments.out) {
-    std::ofstream file(*arguments.out, std::ios::binary);
-    log = runtime::log_as_csv(arguments.run, [&file](std::string_view text) { file << text; });
-    if (!file.flush()) throw Impossible(*arguments.out + ": cannot be written");
+    OutputFile file(*arguments.out);
+    log = runtime::log_as_csv(arguments.run, [&file](std::string_view text) { file.write(text); });
+    file.finish();
   } else {
     log = runtime::log_as_csv(arguments.run, [](std::string_view text) { print_data(text); });
   }

@@ -10,10 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <numbers>
 #include <sstream>
+#include <system_error>
+#include <utility>
 
 #include "colour.hpp"
 #include "zwang/lang/printable.hpp"
@@ -153,11 +154,55 @@ std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span) 
   return path.filename().string() + ":" + std::to_string(span.begin.line);
 }
 
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path_, error);
+  const bool may_move =
+      status.type() == std::filesystem::file_type::not_found || std::filesystem::is_regular_file(status);
+  if (may_move) {
+    part_ += ".part";
+    file_ = std::fopen(part_.c_str(), "wb");
+    if (file_ != nullptr && std::filesystem::is_regular_file(status))
+      std::filesystem::permissions(part_, status.permissions(), error);
+  }
+  if (file_ != nullptr) return;
+  // A folder in which nobody may make files can hold one that may be written.
+  part_ = path_;
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (file_ != nullptr) return;
+  reason_ = errno;
+  refuse();
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  std::error_code error;
+  if (is_beside()) std::filesystem::remove(part_, error);
+}
+
+void OutputFile::write(std::string_view text) {
+  if (reason_ != 0 || text.empty()) return;
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) reason_ = errno;
+}
+
+void OutputFile::finish() {
+  if (std::fflush(file_) != 0 && reason_ == 0) reason_ = errno;
+  if (std::fclose(std::exchange(file_, nullptr)) != 0 && reason_ == 0) reason_ = errno;
+  if (reason_ != 0) refuse();
+  if (!is_beside()) return;
+  std::error_code error;
+  std::filesystem::rename(part_, path_, error);
+  if (error) throw Impossible(path_.string() + ": " + error.message());
+}
+
+void OutputFile::refuse() const {
+  throw Impossible(path_.string() + ": cannot be written: " + std::strerror(reason_));
+}
+
 void write_file(const std::string& path, std::string_view text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Impossible(path + ": cannot be written");
+  OutputFile file(path);
+  file.write(text);
+  file.finish();
 }
 
 void require_file(const std::string& path) {

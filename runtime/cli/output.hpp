@@ -1,6 +1,8 @@
 /// Text for the terminal: checked writing, and numbers with units for people.
 #pragma once
 
+#include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -49,7 +51,31 @@ std::string count(std::size_t n, std::string_view thing);  ///< `1 error`, `2 er
 /// `wall_align.yaml:27`; empty when the span does not exist.
 std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span);
 
-/// In the place of what the file held. Throws Impossible where it cannot be written.
+/// A file that is whole, or as it was before. It is written beside its place and moved there by `finish`.
+/// A device or a pipe, as /dev/stdout, is written where it is.
+class OutputFile {
+ public:
+  /// Throws `Impossible` where nothing can be written.
+  explicit OutputFile(std::filesystem::path path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  /// Without `finish` nothing is left behind.
+  ~OutputFile();
+
+  void write(std::string_view text);
+  /// Throws `Impossible`, with the reason, where not all could be written: a disk may be full.
+  void finish();
+
+ private:
+  [[noreturn]] void refuse() const;
+  bool is_beside() const { return part_ != path_; }
+
+  std::filesystem::path path_, part_;
+  std::FILE* file_ = nullptr;
+  int reason_ = 0;  ///< errno of the first failure
+};
+
+/// The whole text at once, in the place of what the file held.
 void write_file(const std::string& path, std::string_view text);
 
 /// Throws Impossible unless the path is a regular file.

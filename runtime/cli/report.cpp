@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -128,10 +127,7 @@ Series series_of(const fs::path& log, std::size_t points) {
 }
 
 std::string write_page_with(std::string parts, const ordered_json& data, const fs::path& path) {
-  const std::string page = page_with(std::move(parts), text_of(data));
-  std::ofstream file(path, std::ios::binary);
-  file << page;
-  if (!file.flush()) throw Impossible(path.string() + ": cannot be written");
+  write_file(path.string(), page_with(std::move(parts), text_of(data)));
   return path.string();
 }
 

@@ -144,7 +144,18 @@ struct Written {
     report += path + ": " + how + "\n";
   }
   void write() const {
-    for (const auto& [path, text] : files) write_file(path, text);
+    std::vector<std::string> done;
+    try {
+      for (const auto& [path, text] : files) {
+        const bool is_new = !fs::exists(path);
+        write_file(path, text);
+        if (is_new) done.push_back(path);
+      }
+    } catch (const Impossible&) {
+      std::error_code error;
+      for (const std::string& path : done) fs::remove(path, error);
+      throw;
+    }
   }
 };
 

@@ -9,6 +9,7 @@
 #include "file_kind.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/mending.hpp"
 #include "zwang/lang/open_texts.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/version.hpp"
@@ -142,6 +143,12 @@ int validate(const ValidateArguments& arguments) {
     file.kind = kind_of(path);
     file.summary =
         read_as(file.kind, path, file.diagnostics, {options, arguments.notes, true, arguments.task});
+    // Programs make edits without a look at them.
+    const bool is_for_programs =
+        arguments.format == ReportFormat::json || arguments.format == ReportFormat::sarif;
+    if (is_for_programs)
+      file.diagnostics = lang::with_mending_edits(file.kind, path, {options, arguments.notes, arguments.task},
+                                                  file.diagnostics);
     const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;
     file.is_good = file.summary && !file.diagnostics.has_errors() && !is_denied;
     is_good = is_good && file.is_good;

@@ -5,6 +5,8 @@
 
 #include "uri.hpp"
 #include "zwang/lang/explanation.hpp"
+#include "zwang/lang/mending.hpp"
+#include "zwang/lang/open_texts.hpp"
 
 namespace zwang::lsp {
 
@@ -100,52 +102,20 @@ std::map<fs::path, Json> published(const Workspace& workspace, const fs::path& e
   return files;
 }
 
-namespace {
-
-std::string with_text(const std::string& text, const lang::Span& span, const std::string& replacement) {
-  const Lines lines(text);
-  const std::size_t begin = lines.offset(lines.to_editor(span.begin));
-  const std::size_t end = lines.offset(lines.to_editor(span.end));
-  return text.substr(0, begin) + replacement + text.substr(end);
-}
-
-/// Whether a file is the better for the edit: where the text was replaced, it leaves no error of another
-/// kind.
-bool mends(const Workspace& workspace, const fs::path& reader, const Judgement& judgement,
-           const lang::Diagnostic& d, const fs::path& file) {
-  if (!d.replacement) return true;
-  lang::OpenTexts texts = workspace.texts();
-  texts.put(file, with_text(judgement.diagnostics.source(d.span.source).text, d.span, *d.replacement));
-  const lang::ReadsOpenTexts reading(texts);
-  const Judgement after = judge(reader, judgement.kind);
-  const auto newlines = std::count(d.replacement->begin(), d.replacement->end(), '\n');
-  const int first = d.span.begin.line, last = first + static_cast<int>(newlines);
-  const auto was_there = [&](const lang::Diagnostic& error) {
-    const auto& before = judgement.diagnostics.all();
-    return std::any_of(before.begin(), before.end(), [&](const lang::Diagnostic& old) {
-      return old.code == error.code && old.message == error.message;
-    });
-  };
-  const auto& found = after.diagnostics.all();
-  return std::none_of(found.begin(), found.end(), [&](const lang::Diagnostic& error) {
-    return error.severity == lang::Severity::error && error.span.exists() &&
-           file_of(reader, after.diagnostics, error) == file && error.span.begin.line >= first &&
-           error.span.begin.line <= last && !was_there(error);
-  });
-}
-
-}  // namespace
-
 Json quick_fixes(const Workspace& workspace, const fs::path& file, const EditorPosition& begin,
                  const EditorPosition& end, const fs::path& explanations) {
   Json actions = Json::array();
+  const lang::ReadsOpenTexts reading(workspace.texts());
   for (const auto& [reader, judgement] : workspace.judgements()) {
     for (const lang::Diagnostic& d : judgement.diagnostics.sorted()) {
       if (!d.span.exists() || file_of(reader, judgement.diagnostics, d) != file) continue;
       if (!touches(Lines(judgement.diagnostics.source(d.span.source).text), d.span, begin, end)) continue;
       for (const lang::Diagnostic& edited : with_each_edit(d)) {
         Json edits = edits_of(workspace, judgement.diagnostics, edited);
-        if (edits.empty() || !mends(workspace, reader, judgement, edited, file)) continue;
+        if (edits.empty()) continue;
+        if (!lang::mends(judgement.kind, reader, {.load = {}, .with_notes = true}, judgement.diagnostics,
+                         edited))
+          continue;
         Json action = {
             {"title", title_of(edited)},
             {"kind", "quickfix"},

@@ -9,6 +9,7 @@
 #include "bind.hpp"
 #include "read_program.hpp"
 #include "zwang/lang/check_file.hpp"
+#include "zwang/lang/mending.hpp"
 #include "zwang/lang/open_texts.hpp"
 #include "zwang/runtime/with_unit.hpp"
 
@@ -140,7 +141,9 @@ ReadProgram load(const fs::path& path, const std::optional<std::string>& text, c
 }
 
 void look_at(const fs::path& path, const lang::CheckOptions& options, lang::Diagnostics& diagnostics) {
-  lang::check_file(lang::kind_of_file(path).value_or(lang::FileKind::task), path, options, diagnostics);
+  const lang::FileKind kind = lang::kind_of_file(path).value_or(lang::FileKind::task);
+  lang::check_file(kind, path, options, diagnostics);
+  diagnostics = lang::with_mending_edits(kind, path, options, diagnostics);
 }
 
 std::vector<Told> validate(const fs::path& path, const std::optional<std::string>& text,

@@ -142,6 +142,35 @@ TEST_F(Logs, WithARateHaveFewRecordsAndEverySwitch) {
       << again.err;
 }
 
+TEST_F(Logs, OnAFullDiskACsvIsNotLeftHalf) {
+  ASSERT_EQ(run("a").code, 0);
+  write("kept.csv", "as it was");
+  for (const char* file : {"new.csv", "kept.csv"}) {
+    const test::FullDisk full(4096);
+    const Result refused = zwang({"log", "a", "-o", file});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("cannot be written: "), std::string::npos) << refused.err;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "new.csv"));
+  EXPECT_EQ(read(folder_ / "kept.csv"), "as it was");
+  EXPECT_FALSE(fs::exists(folder_ / "new.csv.part"));
+}
+
+// The records of a run whose samples stay away repeat the time of the last one.
+TEST_F(Logs, InfoTellsEventsAtTheTimesOfTheReport) {
+  write("scene.yaml", "zwang_scene: 1\nfaults: [{at: 0.5 s, samples: lost}]\n");
+  const Result stopped = run("a", {"--scene", "scene.yaml"});
+  EXPECT_EQ(stopped.code, 1) << stopped.err;
+  const json report = json::parse(stopped.out, nullptr, false), log = told({"info", "a"});
+  ASSERT_GT(report["events"].size(), 1u);
+  ASSERT_EQ(log["events"].size(), report["events"].size());
+  for (std::size_t i = 0; i < report["events"].size(); ++i) {
+    EXPECT_EQ(log["events"][i]["time"], report["events"][i]["time"]);
+    EXPECT_EQ(log["events"][i]["code"], report["events"][i]["code"]);
+  }
+  EXPECT_GT(log["events"].back()["time"], log["end"]);
+}
+
 TEST_F(Logs, RefuseLimitsThatAreNone) {
   for (const char* limit : {"soon", "5", "0.5 s", "10 kB", "1 GB/s", "nan s"}) {
     const Result refused = run("log", {"--log-rotate", limit});

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "robots.hpp"
 #include "schedule/estimated_wrenches.hpp"
@@ -90,6 +92,36 @@ TEST(Yield, RollsOut) {
     return time < 6.0 ? Eigen::Vector3d(30.0, 0.0, 0.0) : Eigen::Vector3d::Zero().eval();
   });
   EXPECT_NEAR(v[1], v[0] * std::exp(-0.75 * 80.0 / 60.0), 0.03 * v[0]);
+}
+
+/// [m] The widest swing of a yield of 20 kg and 80 N s/m that a spring holds: in the first half second after
+/// a knock, and in the last of four seconds.
+std::pair<double, double> swings(double stiffness) {
+  const lang::Program p = along_x(yields(estimated_force(), 20.0, 80.0, 0.0));
+  Runner runner(p);
+  PlanarBase base;
+  base.V.x() = 2e-3;
+  Sensed sensed(p.robot.model);
+  std::pair<double, double> widest;
+  while (base.time < 4.0) {
+    base.sense(sensed);
+    const Eigen::VectorXd tau = runner.step(sensed);
+    base.step(tau, {-stiffness * base.pose.x(), 0.0, 0.0});
+    if (base.time < 0.5) widest.first = std::max(widest.first, std::abs(base.pose.x()));
+    if (base.time > 3.5) widest.second = std::max(widest.second, std::abs(base.pose.x()));
+  }
+  return widest;
+}
+
+// The force is known 20 ms late. By Routh's criterion a holder of the stiffness k makes no swing while
+//   k < D (M + t D) L / (t M (L - M - t D)),   L the mass of the base.
+TEST(Yield, RingsOnlyWhereItIsHeldStiffly) {
+  constexpr double M = 20.0, D = 80.0, t = 0.02;
+  const double L = PlanarBase().inertia()(0, 0);
+  const double bound = D * (M + t * D) * L / (t * M * (L - M - t * D));
+  const auto below = swings(0.7 * bound), above = swings(1.4 * bound);
+  EXPECT_LT(below.second, 0.2 * below.first);
+  EXPECT_GT(above.second, 2.0 * above.first);
 }
 
 // A force that only is told moves the base, too: nothing pushes it.
@@ -196,6 +228,64 @@ TEST(BuildUp, WhatWasAddedUpIsNoSpeedBeyondTheTarget) {
     EXPECT_LT(fastest, v + std::max(0.1 * v, 5e-3) + F * period / mass_along_x());
     EXPECT_NEAR(found.speeds.back(), v, 0.02 * v);
   }
+}
+
+// Held until it presses with 6.5 m v/T, then rubbed by 5 m v/T: of 0.5 kg that is stiction of 1.3 N, and 1 N
+// of friction. With t_b = 4 T, l = 1/(2 T) and e = ds - v,
+//   e = (-v + (1.5 v/T - l v) t) exp(-l t),   at most 0.45 v: 29 mm/s for 20 mm/s.
+TEST(BuildUp, BreaksAwayFromStictionGently) {
+  const double m = mass_along_x(), v = 0.02, T = 0.05, l = 1.0 / (2.0 * T);
+  const double held = 6.5 * m * v / T, rubs = 5.0 * m * v / T;
+  AxisStatements x = slow_push(4.0 * T);
+  x.force = between(-2.0 * held, 2.0 * held);
+  const lang::Program p = along_x(x);
+  Runner runner(p);
+  PlanarBase base;
+  Sensed sensed(p.robot.model);
+  std::optional<double> away;
+  double fastest = 0.0;
+  while (!away || base.time < *away + 1.0) {
+    base.sense(sensed);
+    const Eigen::VectorXd tau = runner.step(sensed);
+    const Eigen::Vector3d pushed = base.commanded(tau);
+    ASSERT_LT(base.time, 10.0) << "it never breaks away";
+    if (!away && pushed.x() >= held) away = base.time;
+    base.step(tau, away ? Eigen::Vector3d(-rubs, 0.0, 0.0) : Eigen::Vector3d(-pushed));
+    fastest = std::max(fastest, base.V.x());
+  }
+  const double slope = 1.5 * v / T - l * v, at = 1.0 / l + v / slope;
+  EXPECT_NEAR(fastest, v + (-v + slope * at) * std::exp(-l * at), 5e-4);
+}
+
+// With q the law of a position is of the third degree; drag shifts only its begin. With e the way to the
+// goal,
+//   d3e/dt3 + 2/T d2e/dt2 + 1/T^2 de/dt + 1/(t_b T^2) e = 0,   e = -p, de/dt = 0, d2e/dt2 = p/T^2 - F/m at 0.
+// At t_b = 4 T its swinging part is damped by 0.69, and it overshoots.
+TEST(BuildUp, OfAPositionIsALawOfTheThirdDegree) {
+  constexpr double T = 0.1, t_b = 4.0 * T, goal = 0.02, drag = 3.0;
+  AxisStatements x = drive("go.x", Axis::x, Quantity::position, goal);
+  x.time_constant.constant = T;
+  x.build_up = lang::Value{.constant = t_b};
+  lang::Program p =
+      program({task("go", {x, drive("go.y", Axis::y, Quantity::velocity, 0.0)}, base_link, world_frame)});
+  for (lang::Task& only : p.tasks) only.blend = {.constant = 0.0};
+  Runner runner(p);
+  PlanarBase base;
+  Sensed sensed(p.robot.model);
+  Eigen::Vector3d e(-goal, 0.0, goal / (T * T) - drag / mass_along_x());
+  Eigen::Matrix3d law;
+  law << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -1.0 / (t_b * T * T), -1.0 / (T * T), -2.0 / T;
+  double farthest = 0.0;
+  while (base.time < 2.0) {
+    base.sense(sensed);
+    const Eigen::VectorXd tau = runner.step(sensed);
+    base.step(tau, {-drag, 0.0, 0.0});
+    constexpr int parts = 20;
+    for (int i = 0; i < parts; ++i) e += period / parts * (law * e);
+    EXPECT_NEAR(base.pose.x() - goal, e[0], 0.02 * goal) << base.time;
+    farthest = std::max(farthest, base.pose.x());
+  }
+  EXPECT_GT(farthest, 1.01 * goal);
 }
 
 // A position driver under 3 N stands F T^2/m off its place; what builds up leads it there.

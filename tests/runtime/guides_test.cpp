@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "plant/caster_friction.hpp"
+#include "plant/object_geometry.hpp"
 #include "plant/object_guide.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
 
 namespace zwang::runtime {
 namespace {
@@ -51,6 +53,78 @@ TEST(ObjectGuide, FrictionHoldsWithoutCreep) {
   }
   EXPECT_NEAR(q, 1.5 / (200.0 * 200.0 * 9.6), 1e-7);
   EXPECT_NEAR(rate, 0.0, 1e-9);
+}
+
+constexpr double post_radius = 0.05, half_thickness = 0.02;  // [m]
+
+lang::SceneObject gate_on_a_hinge() {
+  lang::SceneObject gate;
+  gate.name = "gate";
+  gate.shape = lang::ShapeKind::box;
+  gate.size = {2.0 * half_thickness, 1.2, 1.0};
+  gate.at = {1.0, 0.0};
+  gate.mass = 20.0;
+  gate.guide.emplace();
+  gate.guide->turns = true;
+  gate.guide->axis = {0.0, 0.0, 1.0};
+  gate.guide->at = {0.0, 0.6, 0.0};
+  gate.guide->upper = 1.5;
+  gate.guide->damping = 20.0;
+  return gate;
+}
+
+lang::SceneObject post_at(double x, double y) {
+  lang::SceneObject post;
+  post.name = "post";
+  post.shape = lang::ShapeKind::cylinder;
+  post.size = {post_radius, 1.0, 1.0};
+  post.at = {x, y};
+  return post;
+}
+
+/// [rad] How far a hand of 20 N, 1.1 m from the hinge and square to the gate, opens it in 5 s.
+double opened_beside(const lang::SceneObject& other) {
+  solver::ModelBuilder builder(
+      solver::BaseType::fixed, "base_link",
+      solver::RigidInertia::from_com(10.0, solver::Vector3::Zero(), solver::Matrix3::Identity()));
+  lang::Robot robot;
+  robot.name = "pole";
+  robot.model = builder.build();
+  robot.base_frame = "base_link";
+  lang::Scene scene;
+  scene.objects = {gate_on_a_hinge(), other};
+  MujocoPlant plant(robot, scene);
+  BodyPush push{.robot = -1, .body = 0};
+  push.pose.position = {0.0, -0.5, 0.5};
+  push.wrench.linear() = solver::Vector3(20.0, 0.0, 0.0);
+  plant.set_more_pushes(std::vector{push});
+  for (int i = 0; i < 5000; ++i) EXPECT_EQ(plant.apply(Eigen::VectorXd(0)), PlantStatus::ok);
+  return plant.truth().objects.front().travel;
+}
+
+// The gate's middle line runs from the hinge along (sin q, -cos q). A post at (a, -b) from the hinge lies
+// a cos q - b sin q = R cos(q + f) beside it, with R its distance and tan f = b/a. They touch where that is
+// half the gate and the post's radius.
+TEST(Guides, AGateMeetsAPostInItsWay) {
+  constexpr double a = 0.6, b = 0.6;
+  const double angle = std::acos((half_thickness + post_radius) / std::hypot(a, b)) - std::atan2(b, a);
+  EXPECT_NEAR(opened_beside(post_at(1.0 + a, 0.6 - b)), angle, 1e-3);
+}
+
+// Beside the hinge it is the frame: nothing of it is in the way.
+TEST(Guides, AGateDoesNotMeetItsFrame) {
+  EXPECT_GT(opened_beside(post_at(1.0 + half_thickness + post_radius + 0.01, 0.55)), 1.4);
+}
+
+// The nearest points of two circles, of a circle and a side, of two sides.
+TEST(Guides, TheGapOfTwoOutlinesIsTheirDistance) {
+  const lang::SceneObject gate = gate_on_a_hinge();
+  EXPECT_NEAR(gap_between(post_at(0.0, 0.0), post_at(3.0, 4.0), 0.1), 5.0 - 2.0 * post_radius, 1e-12);
+  EXPECT_NEAR(gap_between(gate, post_at(1.5, 0.3), 0.1), 0.5 - half_thickness - post_radius, 1e-12);
+  lang::SceneObject other = gate;
+  other.at = {1.3, 0.2};
+  EXPECT_NEAR(gap_between(gate, other, 0.1), 0.3 - 2.0 * half_thickness, 1e-12);
+  EXPECT_LT(gap_between(gate, gate, 0.1), 0.0);
 }
 
 TEST(CasterFriction, TakesTheWholeFrictionStraightAhead) {

@@ -94,6 +94,18 @@ TEST_F(Verbs, InitMakesAFolderThatRuns) {
   EXPECT_TRUE(contains(r.err, "is there already")) << r.err;
 }
 
+TEST_F(Verbs, OnAFullDiskInitLeavesNoHalfFolder) {
+  fs::create_directory(folder_ / "empty");
+  for (const char* folder : {"new", "empty"}) {
+    const test::FullDisk full(4096);
+    const Result refused = zwang({"init", folder});
+    EXPECT_EQ(refused.code, 2) << refused.out;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "empty"));
+  EXPECT_EQ(zwang({"init", "new"}).code, 0);
+}
+
 TEST_F(Verbs, DoctorSaysWhatIsThere) {
   const Result r = zwang({"doctor"});
   EXPECT_EQ(r.code, 0) << r.err;

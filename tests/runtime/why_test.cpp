@@ -278,6 +278,27 @@ tasks:
   EXPECT_EQ(ended.sentence().find("go.x.position"), std::string::npos) << "a term that holds is no reason";
 }
 
+// Held by the boundary, the driver presses with all of its range: the boundary is the reason.
+TEST(Why, ABoundaryThatADriverPressesAgainst) {
+  const Ended ended = run(R"(
+regions: {room: {polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}}
+always:
+  constraints:
+    fence: {move: footprint, inside: room, margin: 5 cm}
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: world, x: {position: 2 m, velocity: +-0.3 m/s, force: +-30 N}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: go.x.position > 1.9 m, goto: done}
+    timeout: {after: 4 s, goto: failed}
+)",
+                          open_floor);
+  expect_words(ended,
+               {"`always.fence.left` was at its limit, 0.050 m, which keeps `footprint` inside `room`"});
+}
+
 TEST(Why, ABoundaryThatTheGoalLiesBehind) {
   const Ended ended = run(R"(
 regions: {room: {polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}}

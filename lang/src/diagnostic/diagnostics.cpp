@@ -29,10 +29,26 @@ std::string_view unknown_name_in(const Diagnostic& d) {
   return std::string_view(d.message).substr(at);
 }
 
+/// Of "`fast-lane` cannot be a name" the words of its unknown name.
+std::string bad_name_in(const Diagnostic& d) {
+  const std::size_t end = d.message.find("` cannot be a name");
+  return d.code == "E105" && end != std::string::npos ? " named " + d.message.substr(0, end + 1)
+                                                      : std::string();
+}
+
 bool are_of_one_cause(const Diagnostic& a, const Diagnostic& b) {
   if (a.message == b.message) return true;
-  const std::string_view name = unknown_name_in(a);
-  return !name.empty() && name == unknown_name_in(b);
+  const std::string_view name = unknown_name_in(b);
+  // A name that cannot be one is the mistake: where it is used nothing else is wrong.
+  return !name.empty() && (name == unknown_name_in(a) || name == bad_name_in(a));
+}
+
+/// What mends the name mends it where it is used. A span may hold more than the name, as quotes do.
+std::optional<std::string> replacement_of_use(const Diagnostic& declared, const Span& use) {
+  const std::string name = bad_name_in(declared);
+  const auto length = static_cast<int>(name.size()) - static_cast<int>(std::string_view(" named ``").size());
+  const bool is_just_it = use.begin.line == use.end.line && use.end.column - use.begin.column == length;
+  return !name.empty() && is_just_it ? declared.replacement : std::nullopt;
 }
 
 bool is_before(const Position& a, const Position& b) {
@@ -64,7 +80,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
   for (Diagnostic& other : diagnostics_) {
     if (is_same(other, diagnostic)) return;
     if (!may_be_elsewhere || !are_of_one_cause(other, diagnostic)) continue;
-    other.related.push_back({diagnostic.span, "and here"});
+    other.related.push_back({diagnostic.span, "and here", replacement_of_use(other, diagnostic.span)});
     return;
   }
   diagnostics_.push_back(std::move(diagnostic));

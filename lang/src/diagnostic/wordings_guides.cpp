@@ -75,4 +75,11 @@ Diagnostic nothing_travels(const Span& span, const std::string& name) {
                "give it a `hinge` or a `slide`");
 }
 
+Diagnostic idle_noise(const Span& span, const std::string& what, const std::string& key,
+                      const std::string& other) {
+  return error("E908", span, what + " has no " + in_ticks(key) + ": it would do nothing",
+               other.empty() ? "delete it: a script and a latch give what they say"
+                             : "write " + in_ticks(other) + ", or delete it");
+}
+
 }  // namespace zwang::lang::wording

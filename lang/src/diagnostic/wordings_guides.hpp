@@ -28,5 +28,8 @@ Diagnostic push_key_of_other(const Span& span, const std::string& key, bool is_o
 Diagnostic pad_off_the_arm(const Span& span, const std::string& frame);
 /// Of the signal source `travel_of`.
 Diagnostic nothing_travels(const Span& span, const std::string& name);
+/// `other`: the noise that such a signal has; empty where it has none.
+Diagnostic idle_noise(const Span& span, const std::string& what, const std::string& key,
+                      const std::string& other);
 
 }  // namespace zwang::lang::wording

@@ -25,9 +25,12 @@ struct Fillet {
   double radius = 0.0;  ///< [m]
   double speed = 0.0;   ///< [m/s] along it
   std::string norm;     ///< "always.calm.plane"
-  double most = 0.0;    ///< [m/s^2]
+  double most = 0.0;    ///< [m/s^2] or [N]
 };
 Diagnostic fillet_beyond_norm(const Span& span, const Fillet& fillet, const Span& norm, const Span& declared);
+/// `mass`: the most that the base weighs across its way [kg].
+Diagnostic fillet_beyond_push(const Span& span, const Fillet& fillet, double mass, const Span& norm,
+                              const Span& declared);
 
 /// `length`: from the axle to the frame that is driven, in which the heading decays to a third [m]; 0: not
 /// known.

@@ -1,5 +1,6 @@
 #include "diagnostic/wordings_physics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -41,8 +42,14 @@ std::string named_lead(const std::string& frame) {
 
 Diagnostic capped(Diagnostic diagnostic, const Cap& cap, const Span& limit) {
   const AxisUnits u = axis_units(cap.turns);
-  diagnostic.help = "ask for `" + at_most(cap.most, u.force) + "` or less, or allow an acceleration of `" +
-                    at_least(cap.wanted / cap.mass, u.acceleration) + "`";
+  diagnostic.help = "ask for `" + at_most(cap.most, u.force) + "` or less";
+  // An acceleration that no motor makes would lead from this error to the next.
+  const double possible = std::min(cap.wanted, cap.motors);
+  if (possible > cap.most)
+    diagnostic.help +=
+        ", or allow an acceleration of `" + at_least(possible / cap.mass, u.acceleration) + "`";
+  if (possible < cap.wanted)
+    diagnostic.help += " for the " + figure(cap.motors, u.force) + " that the motors make at most";
   if (!limit.exists()) return diagnostic;
   return with_related(std::move(diagnostic), limit, "the acceleration is limited here");
 }

@@ -1,6 +1,7 @@
 /// Diagnostics of a robot that cannot do what a file asks: E404, E406, W407 and the 600s.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "zwang/lang/diagnostic.hpp"
@@ -39,9 +40,10 @@ Diagnostic pushes_fully(const Span& span, double push, const Span& motor);  ///<
 struct Cap {
   std::string axis;
   bool turns = false;
-  double wanted = 0.0;  ///< [N] or [N m]
-  double most = 0.0;    ///< [N] or [N m]
-  double mass = 0.0;    ///< effective [kg] or [kg m^2]
+  double wanted = 0.0;                                      ///< [N] or [N m]
+  double most = 0.0;                                        ///< [N] or [N m]
+  double mass = 0.0;                                        ///< effective [kg] or [kg m^2]
+  double motors = std::numeric_limits<double>::infinity();  ///< that they make at most [N] or [N m]
 };
 Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit);
 /// By the range of velocities, which the drive keeps within `horizon` [s].

@@ -124,7 +124,7 @@ Diagnostic fault_without_motor(const Span& span, const std::string& joint) {
 
 Diagnostic too_light(const Span& span, double most) {
   return error("E907", span, "a negative `payload` takes off more than there is",
-               "take off at most three quarters of the base link's mass, " + format_number(most) + " kg");
+               "take off at most three quarters of the base link's mass, " + at_most(most, "kg"));
 }
 
 Diagnostic too_nimble(const Span& span) {

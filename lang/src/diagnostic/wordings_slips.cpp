@@ -41,6 +41,8 @@ std::string plainly_written(const std::string& text) {
   for (const auto& [odd, usual] : spellings) {
     for (std::size_t at = 0; (at = plain.find(odd, at)) != std::string::npos; at += usual.size()) {
       plain.replace(at, odd.size(), usual);
+      // A unit keeps the one blank that stands before it.
+      if (at > 0 && plain[at] == ' ' && plain[at - 1] == ' ') plain.erase(at, 1);
     }
   }
   // Between digits a comma stands for the point, with blanks behind it, too, and an underscore for nothing.
@@ -378,6 +380,11 @@ Diagnostic split_text(const Span& span, const std::string& key) {
   return error("E107", span,
                "a comma cut the text of `" + key + "` in two: inside `{..}` it starts a new key",
                "quote the text: `" + key + ": \"..\"`");
+}
+
+Diagnostic lone_return(const Span& span) {
+  return error("E100", span, "lines end with a carriage return alone, as on a Mac before 2001",
+               "save the file with the line ends of Linux (LF) or Windows (CR LF)");
 }
 
 }  // namespace zwang::lang::wording

@@ -119,4 +119,7 @@ Diagnostic measured_position_in_own_axes(const Span& span, const std::string& ax
 /// `key`: of the text, such as `note`.
 Diagnostic split_text(const Span& span, const std::string& key);
 
+/// A `\r` that no `\n` follows.
+Diagnostic lone_return(const Span& span);
+
 }  // namespace zwang::lang::wording

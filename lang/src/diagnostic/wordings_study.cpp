@@ -1,15 +1,24 @@
 #include "diagnostic/wordings_study.hpp"
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings_scenario.hpp"
 
 namespace zwang::lang::wording {
 
-Diagnostic unknown_draw(const Span& span, const std::string& name, const std::string& meant,
-                        const std::vector<std::string>& known) {
+Diagnostic unknown_draw(const Span& span, const std::string& name, const std::optional<std::string>& missing,
+                        const std::string& meant, const std::vector<std::string>& known) {
   std::string help;
   for (const std::string& one : known) help += (help.empty() ? "can be drawn here: " : ", ") + one;
+  if (missing) return error("E931", span, *missing, help);
   Diagnostic diagnostic = error("E931", span, "nothing named `" + name + "` can be drawn", help);
   return with_suggestion(std::move(diagnostic), meant);
+}
+
+Diagnostic refused_draw(const std::vector<Span>& spans, const std::string& cell, const std::string& code,
+                        const std::string& reason, const std::string& place) {
+  Diagnostic diagnostic = refused_cell(spans, cell, code, reason, place);
+  diagnostic.help = "draw from a range that leaves this out, or write `- diagnostic: " + code + "`";
+  return diagnostic;
 }
 
 Diagnostic bad_draw(const Span& span, const std::string& why, const std::string& help) {

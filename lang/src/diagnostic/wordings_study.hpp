@@ -1,6 +1,7 @@
 /// What is said about studies.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,12 @@
 
 namespace zwang::lang::wording {
 
-/// `known`: what can be drawn here.
-Diagnostic unknown_draw(const Span& span, const std::string& name, const std::string& meant,
-                        const std::vector<std::string>& known);
+/// `known`: what can be drawn here. `missing`: why a name that others have is not among it.
+Diagnostic unknown_draw(const Span& span, const std::string& name, const std::optional<std::string>& missing,
+                        const std::string& meant, const std::vector<std::string>& known);
+/// A drawn cell whose task is refused.
+Diagnostic refused_draw(const std::vector<Span>& spans, const std::string& cell, const std::string& code,
+                        const std::string& reason, const std::string& place);
 /// It exists and still cannot be drawn so: `why` says what is in the way, `help` the way out.
 Diagnostic bad_draw(const Span& span, const std::string& why, const std::string& help);
 Diagnostic one_distribution(const Span& span, const std::string& name);

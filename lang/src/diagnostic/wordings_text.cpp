@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -268,8 +269,15 @@ Diagnostic expected_condition(const Span& span) {
 }
 
 Diagnostic not_a_name(const Span& span, const std::string& text) {
-  return error("E105", span, in_ticks(text) + " cannot be a name",
-               "names are letters, digits and underscores, and start with a letter");
+  Diagnostic diagnostic = error("E105", span, in_ticks(text) + " cannot be a name",
+                                "names are letters, digits and underscores, and start with a letter");
+  std::string plain = text;
+  for (char& c : plain) c = c == '-' || c == ' ' || c == '.' || c == '/' ? '_' : c;
+  const auto is_of_names = [](char c) { return is_word_start(c) || (c >= '0' && c <= '9'); };
+  if (plain.empty() || !is_word_start(plain.front()) || !std::ranges::all_of(plain, is_of_names))
+    return diagnostic;
+  diagnostic.help = "write `" + plain + "`: " + diagnostic.help;
+  return with_replacement(std::move(diagnostic), plain);
 }
 
 Diagnostic reserved_name(const Span& span, const std::string& name) {

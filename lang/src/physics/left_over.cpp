@@ -24,17 +24,21 @@ bool is_round_a_point(const PlannedAxis& axis) {
 
 }  // namespace
 
-void ask_left_over(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
-                   Remarks& remarks) {
+void ask_left_over(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   // A group that could not be read may be the one that holds the rest. On a base of two freedoms a distance
   // and a bearing take both.
   if (probe.base_mobility() < 3 || context.diagnostics.has_errors()) return;
   const auto first = std::find_if(plan.axes.begin(), plan.axes.end(), is_round_a_point);
   if (first == plan.axes.end()) return;
-  const auto of_the_base = [](const PlannedAxis& axis) { return axis.move.body == 0; };
-  const auto rows = std::count_if(plan.axes.begin(), plan.axes.end(), speaks_of_the_base) +
-                    std::count_if(plan.free.begin(), plan.free.end(), of_the_base);
-  const int left = probe.base_mobility() - static_cast<int>(rows);
+  // Two rows of one motion leave as much as one of them: only independent rows count.
+  std::vector<const PlannedAxis*> rows;
+  for (const PlannedAxis& axis : plan.axes) {
+    if (speaks_of_the_base(axis)) rows.push_back(&axis);
+  }
+  for (const PlannedAxis& axis : plan.free) {
+    if (axis.move.body == 0) rows.push_back(&axis);
+  }
+  const int left = probe.base_mobility() - probe.rank(rows);
   if (left <= 0 || remarks.any_at(first->driver_span())) return;
   remarks.add(wording::leaves_freedoms(first->driver_span(), first->path, left, probe.base_mobility()));
 }

@@ -1,5 +1,6 @@
 // W615: a fillet of radius r at v needs v^2/r towards its centre. Where `plane` allows less, the base leaves
-// the path, or slows down.
+// the path, or slows down. A push of M v^2/r takes it around, M the most that the base weighs across its way:
+// on driven casters the swivels count, which turn into the fillet. Where `plane` allows less force, likewise.
 //
 // N622: on a base of two freedoms x and y of a point ahead of the axle take both. The heading r against a
 // straight path is left over. With the point l ahead, dr/dx = -sin(r)/l, so r decays with exp(-x/l).
@@ -45,7 +46,20 @@ const Path* path_of(const CheckContext& context, const PlannedAxis& axis) {
   return path < 0 ? nullptr : &context.file.paths[static_cast<std::size_t>(path)];
 }
 
-void ask_path(const CheckContext& context, const PlannedTask& plan, Remarks& remarks) {
+namespace {
+
+/// The most that the base weighs in the plane; infinite where its wheels hold it. [kg]
+double most_mass_across(Probe& probe) {
+  PlannedAxis base;
+  base.move = base.in = {0, {}, {}};
+  base.axis = Axis::y;
+  const AxisFigures* figures = probe.figures(base);
+  return figures == nullptr ? solver::infinity : figures->most_mass;
+}
+
+}  // namespace
+
+void ask_path(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
     const Path* path = axis.axis == Axis::x && axis.driver ? path_of(context, axis) : nullptr;
     const double radius = path == nullptr ? solver::infinity : path->least_radius();
@@ -55,6 +69,15 @@ void ask_path(const CheckContext& context, const PlannedTask& plan, Remarks& rem
       if (norm.move.body != axis.move.body || !(norm.most > 0.0) || !is_beyond) continue;
       remarks.add(wording::fillet_beyond_norm(
           axis.driver_span(), {path->name, radius, speed, norm.path, norm.most}, norm.span, path->span));
+    }
+    for (const PlannedNorm& norm : plan.force_norms) {
+      if (norm.move.body != axis.move.body || axis.move.body != 0 || !(norm.most > 0.0) || speed == 0.0)
+        continue;
+      const double mass = most_mass_across(probe);
+      if (!std::isfinite(mass) || mass * speed * speed / radius <= norm.most * rounding) continue;
+      remarks.add(wording::fillet_beyond_push(axis.driver_span(),
+                                              {path->name, radius, speed, norm.path, norm.most}, mass,
+                                              norm.span, path->span));
     }
   }
 }

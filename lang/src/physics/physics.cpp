@@ -83,7 +83,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_left_over(context, plan, probe, remarks);
   ask_top_speed(plan, *context.robot, remarks);
   ask_plane(plan, probe, remarks);
-  ask_path(context, plan, remarks);
+  ask_path(context, plan, probe, remarks);
   ask_arm_force(plan, *context.robot, remarks);
   ask_press(plan, probe, remarks);
   ask_springs(plan, probe, remarks);

@@ -184,15 +184,16 @@ void plan_speed(const CheckContext& context, const GroupText& group, const AxisT
 }
 
 void plan_norm(const CheckContext& context, const GroupText& group, const AxisText& text, bool in_always,
-               std::vector<PlannedNorm>& norms) {
+               Quantity quantity, std::vector<PlannedNorm>& norms) {
   const std::optional<int> move = good_frame(context.symbols, group.move);
-  const std::optional<StatementText>& acceleration = text[Quantity::acceleration];
-  if (!move || !acceleration || !acceleration->is_range) return;
-  const std::optional<double> most = known(context, acceleration->high, dimension::acceleration);
+  const std::optional<StatementText>& norm = text[quantity];
+  if (!move || !norm || !norm->is_range) return;
+  const Dimension measures = quantity == Quantity::force ? dimension::force : dimension::acceleration;
+  const std::optional<double> most = known(context, norm->high, measures);
   const Place place = place_of(context, *move);
   if (!most || place.frame.body < 0) return;
   norms.push_back(
-      {(in_always ? "always." : "") + group.name.text + ".plane", place.frame, *most, acceleration->span});
+      {(in_always ? "always." : "") + group.name.text + ".plane", place.frame, *most, norm->span});
 }
 
 /// A norm bounds each of its two axes.
@@ -233,7 +234,8 @@ void plan_groups(const CheckContext& context, const std::vector<GroupText>& grou
     for (const AxisText& text : group.axes) {
       if (text.is_norm() && group.kind == GroupKind::axes) {
         plan_speed(context, group, text, in_always, plan.speeds);
-        plan_norm(context, group, text, in_always, plan.norms);
+        plan_norm(context, group, text, in_always, Quantity::acceleration, plan.norms);
+        plan_norm(context, group, text, in_always, Quantity::force, plan.force_norms);
         plan_box(context, group, text, in_always, plan.axes);
         continue;
       }

@@ -80,11 +80,11 @@ struct PlannedSpeed {
   Span span;          ///< of the range
 };
 
-/// `acceleration` of `plane`.
+/// `acceleration` or `force` of `plane`.
 struct PlannedNorm {
   std::string path;  ///< "always.calm.plane"
   solver::AttachedFrame move;
-  double most = 0.0;  ///< [m/s^2]
+  double most = 0.0;  ///< [m/s^2] or [N]
   Span span;          ///< of the range
 };
 
@@ -93,7 +93,7 @@ struct PlannedTask {
   std::vector<PlannedAxis> axes;  ///< of `always`, of the task, then the robot file's limits
   std::vector<PlannedAxis> free;  ///< of them what is written as `free`
   std::vector<PlannedSpeed> speeds;
-  std::vector<PlannedNorm> norms;
+  std::vector<PlannedNorm> norms, force_norms;
 
   /// How fast the axis may go at most, by its own range and by what bounds the planar speed of what it moves.
   /// Infinite where nothing does. [m/s] or [rad/s]

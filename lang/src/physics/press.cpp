@@ -99,7 +99,8 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     const AccelerationLimit limit = acceleration_limit(plan, axis, *axis.target < 0.0 ? -1.0 : 1.0, true);
     const Span limited = limit.from != nullptr ? limit.from->span(solver::Quantity::acceleration) : Span{};
     const auto cap = [&](double wanted, const Pressed& pressed) {
-      return wording::Cap{axis.path, axis.turns(), std::abs(wanted), pressed.force, pressed.mass};
+      return wording::Cap{axis.path,     axis.turns(), std::abs(wanted),
+                          pressed.force, pressed.mass, pressed.motors};
     };
     if (falls_short(now.most, *axis.target)) {
       remarks.add(wording::cannot_press(axis.driver_span(), cap(*axis.target, now.most), limited));

@@ -59,7 +59,7 @@ void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe&
 /// W615: circles that the norm of an acceleration does not allow. W641: two ranges that are meant as a norm.
 void ask_plane(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W615: fillets that the norm of an acceleration does not allow at the speed along the path.
-void ask_path(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
+void ask_path(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// N622: a heading along a path, of a base whose freedoms x and y take.
 void ask_heading(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W601: springs that an acceleration limit clips.
@@ -73,8 +73,7 @@ void ask_yields(const CheckContext& context, const PlannedTask& plan, const std:
 void ask_yield_axes(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
                     Remarks& remarks);
 /// W646: freedoms of the base that a task of features leaves to nothing.
-void ask_left_over(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
-                   Remarks& remarks);
+void ask_left_over(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// N616: targets on a pose signal that are trailed.
 void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.

@@ -9,6 +9,7 @@
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
 #include "words/nearest.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/explanation.hpp"
 
 namespace zwang::lang {
@@ -148,10 +149,13 @@ void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnos
 }
 
 std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study, Diagnostics& diagnostics) {
-  const bool is_condition = node.is_scalar() && node.text.find(' ') != std::string::npos;
+  // `outcome done` means the outcome; what compares or names a part of something is a condition.
+  const std::string written = node.is_scalar() ? trimmed(node.text) : "done";
+  const bool is_condition =
+      written.find(' ') != std::string::npos && written.find_first_of("<>.") != std::string::npos;
   MapReader map(node, "an expectation", diagnostics,
-                is_condition ? "{at: end, that: " + node.text + "}"
-                             : "{outcome: " + (node.is_scalar() ? node.text : "done") + "}");
+                is_condition ? "{at: end, that: " + written + "}"
+                             : "{outcome: " + written.substr(written.rfind(' ') + 1) + "}");
   if (!map.is_mapping()) return std::nullopt;
   ExpectationText expected;
   expected.span = node.span;

@@ -1,6 +1,7 @@
 #include "scene/load_signals.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_guides.hpp"
@@ -129,19 +130,51 @@ void parse_threshold(MapReader& map, SceneSignal& signal, Diagnostics& diagnosti
   }
 }
 
+/// What a signal has a noise of. A script's values are given, and a latch is true or false.
+struct Noises {
+  bool of_number = false, of_angle = false;
+};
+
+Noises noises_of(const SceneSignal& signal) {
+  switch (signal.kind) {
+    case SceneSignalKind::script:
+    case SceneSignalKind::latch:
+      return {};
+    case SceneSignalKind::pose:
+      return {.of_number = true, .of_angle = true};
+    case SceneSignalKind::travel:
+      return {.of_number = signal.powers[3] == 0, .of_angle = signal.powers[3] != 0 || signal.object < 0};
+    default:
+      return {.of_number = true};
+  }
+}
+
+void parse_noises(MapReader& map, SceneSignal& signal, Diagnostics& diagnostics) {
+  const Noises noises = noises_of(signal);
+  for (const auto& [key, is_measured, other] : {std::tuple{"noise", noises.of_number, "angle_noise"},
+                                                std::tuple{"angle_noise", noises.of_angle, "noise"}}) {
+    const Node* node = map.optional(key);
+    const bool has_other = noises.of_number || noises.of_angle;
+    if (node != nullptr && !is_measured)
+      diagnostics.add(wording::idle_noise(node->span, map.what(), key, has_other ? other : ""));
+  }
+  const bool is_force = signal.kind == SceneSignalKind::force || signal.kind == SceneSignalKind::wrench;
+  if (noises.of_number)
+    signal.noise = not_negative(map, "noise", is_force ? dimension::force : dimension::length, diagnostics);
+  if (noises.of_angle) signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
+}
+
 /// `noise`, `bias`, `angle_noise`, `delay`, `rate`, `dropouts`.
 void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagnostics& diagnostics) {
   const bool is_force = signal.kind == SceneSignalKind::force;
   const bool is_wrench = signal.kind == SceneSignalKind::wrench;
-  signal.noise =
-      not_negative(map, "noise", is_force || is_wrench ? dimension::force : dimension::length, diagnostics);
+  parse_noises(map, signal, diagnostics);
   if (const Node* node = is_wrench ? map.optional("bias") : nullptr) {
     const auto bias = parse_vector(*node, dimension::force, 3, 3, map.what() + "'s `bias`", diagnostics);
     if (bias) signal.force_bias = {(*bias)[0], (*bias)[1], (*bias)[2]};
   }
   if (const Node* node = is_force ? map.optional("bias") : nullptr)
     signal.bias = parse_plain(*node, dimension::force, map.what() + "'s `bias`", diagnostics).value_or(0.0);
-  signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
   signal.delay = not_negative(map, "delay", dimension::time, diagnostics);
   if (signal.delay > most_delay)
     diagnostics.add(wording::delayed_too_long(map.optional("delay")->span, map.what(), most_delay));

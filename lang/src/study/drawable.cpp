@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "diagnostic/wordings_physics.hpp"
 #include "words/text.hpp"
 #include "words/units.hpp"
+#include "zwang/lang/fault_word.hpp"
 
 namespace zwang::lang {
 
@@ -169,11 +171,32 @@ Fault whole_run(FaultKind kind, double value) {
   return fault;
 }
 
-std::optional<std::string> put_into_robot(const std::string& key, double value, Program& program,
-                                          RobotDeviation& deviation) {
+/// Why the robot cannot differ so, in the words of a study.
+std::optional<BadValue> bad_robot_value(const RobotNumber& number, double value, const Program& program) {
+  const std::string name = std::string("`robot.") + number.key + "`";
+  const std::string key = number.key;
+  if (number.is_factor && !(value > 0.0))
+    return BadValue{name + " cannot be " + wording::figure(value, "") + ": a factor is above 0",
+                    "draw factors around 1, all above 0"};
+  const double least = key == "mass" ? 1.0 - most_payload_less : 1.0 - most_inertia_less;
+  if ((key == "mass" || key == "inertia") && value < least)
+    return BadValue{
+        name + " cannot be " + wording::figure(value, "") + ": at least " + wording::figure(least, "") +
+            " times the base link's own has to stay",
+        "draw factors from " + wording::figure(least, "") + " on; a `normal` draw goes far below its mean"};
+  const double mass = program.robot.model.bodies().front().inertia.mass;
+  if (key == "payload" && value < -most_payload_less * mass)
+    return BadValue{name + " cannot be " + wording::figure(value, "kg") + ": the base link has " +
+                        wording::figure(mass, "kg") + ", and a quarter of it has to stay",
+                    "draw from -" + wording::at_most(most_payload_less * mass, "kg") + " on"};
+  return std::nullopt;
+}
+
+std::optional<BadValue> put_into_robot(const std::string& key, double value, Program& program,
+                                       RobotDeviation& deviation) {
   const RobotNumber* number = robot_number(key);
-  if (number != nullptr && number->is_factor && !(value > 0.0))
-    return "a factor of " + format_number(value) + " leaves nothing";
+  if (number == nullptr) return std::nullopt;
+  if (auto bad = bad_robot_value(*number, value, program)) return bad;
   std::vector<Fault>& faults = program.scene->faults;
   // The first fault of a kind is the one that acts.
   const auto act = [&](FaultKind kind, double v) { faults.insert(faults.begin(), whole_run(kind, v)); };
@@ -280,21 +303,41 @@ void put_before(const Draw& draw, double value, const std::array<double, 2>& sta
   for (Fault& fault : cell.faults) fault.at = std::max(0.0, fault.at + value - first);
 }
 
-std::optional<std::string> put_after(const Draw& draw, double value, Program& program,
-                                     RobotDeviation& deviation) {
+std::optional<BadValue> put_after(const Draw& draw, double value, Program& program,
+                                  RobotDeviation& deviation) {
   const std::optional<Drawable> drawable = drawable_named(draw.name);
   if (drawable->part < DrawnPart::robot || !program.scene) return std::nullopt;
   if (drawable->part == DrawnPart::robot) return put_into_robot(drawable->key, value, program, deviation);
-  std::optional<std::string> why = "this scene has no " + draw.name;
+  const std::string name = "`" + draw.name + "`";
+  std::optional<BadValue> bad =
+      BadValue{"the scene of this cell has no " + name, "draw what each scene of the study has"};
   const auto put = [&](const Dimension&, bool may_be_zero, bool may_be_negative, double& place) {
     const double number = draw.is_factor ? value * place : value;
-    why.reset();
+    bad.reset();
     if (!may_be_negative && (number < 0.0 || (number == 0.0 && !may_be_zero)))
-      why = draw.name + " cannot be " + format_number(number) + (draw.unit.empty() ? "" : " " + draw.unit);
-    if (!why) place = number;
+      bad = BadValue{name + " cannot be " + wording::figure(value, draw.unit),
+                     may_be_zero ? "let the range begin at 0" : "let the range begin above 0"};
+    if (!bad) place = number;
   };
   visit_number(*drawable, *program.scene, put);
-  return why;
+  return bad;
+}
+
+std::optional<std::string> missing_number(const std::string& name, const Program& program) {
+  const std::optional<Drawable> drawable = drawable_named(name);
+  if (!drawable || !program.scene) return std::nullopt;
+  const auto has = [&](const auto& owners, const auto& numbers) {
+    return number_named(numbers, drawable->key) != nullptr &&
+           std::any_of(owners.begin(), owners.end(),
+                       [&](const auto& o) { return o.name == drawable->owner; });
+  };
+  const Scene& scene = *program.scene;
+  const bool is_of_scene = drawable->part == DrawnPart::thing &&
+                           (has(scene.objects, object_numbers) || has(scene.robots, partner_numbers));
+  const bool is_of_signal = drawable->part == DrawnPart::signal && has(scene.signals, signal_numbers);
+  if (!is_of_scene && !is_of_signal) return std::nullopt;
+  return "`" + drawable->owner + "` has no `" + drawable->key +
+         "` in the scene: nothing is there to be drawn";
 }
 
 }  // namespace zwang::lang

@@ -41,10 +41,17 @@ std::optional<Drawable> find_drawable(const std::string& name, const ScenarioFil
 /// All names that `find_drawable` knows, for messages.
 std::vector<std::string> drawable_names(const ScenarioFile& file, const Program& program);
 
+/// Why a name that an object or a signal could have cannot be drawn of this one; nullopt of other names.
+std::optional<std::string> missing_number(const std::string& name, const Program& program);
+
 /// Before the task is read. `start_at` is where the cell starts, where it does not say so itself.
 void put_before(const Draw& draw, double value, const std::array<double, 2>& start_at, ScenarioCell& cell);
+/// A value that cannot be.
+struct BadValue {
+  std::string why, help;
+};
 /// Into what was read, and how the simulated robot differs from it. nullopt, or why the value cannot be.
-std::optional<std::string> put_after(const Draw& draw, double value, Program& program,
-                                     RobotDeviation& deviation);
+std::optional<BadValue> put_after(const Draw& draw, double value, Program& program,
+                                  RobotDeviation& deviation);
 
 }  // namespace zwang::lang

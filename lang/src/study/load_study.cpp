@@ -49,8 +49,8 @@ std::optional<ScenarioRun> with_draws(const Study& study, StudyCell& cell, std::
     }
     for (std::size_t i = 0; i < study.draws.size(); ++i) {
       const Draw& draw = study.draws[i];
-      if (auto why = put_after(draw, cell.drawn[i], *run.program, chosen.deviation))
-        of_study.add(wording::bad_draw(draw.span, *why, "draw from a range that leaves this out"));
+      if (auto bad = put_after(draw, cell.drawn[i], *run.program, chosen.deviation))
+        of_study.add(wording::bad_draw(draw.span, bad->why, bad->help));
     }
     check_faults(chosen, *run.program, of_study);
     if (run.program->scene) check_faults_for(run.program->scene->faults, run.program->robot, of_study);
@@ -172,7 +172,7 @@ class StudyReader {
     }
     if (expects_refusal(file_, codes)) return;
     const std::string place = d->span.exists() ? of_task.source(d->span.source).path : std::string();
-    diagnostics_.add(wording::refused_cell(spans, cell, d->code, d->message,
+    diagnostics_.add(wording::refused_draw(spans, cell, d->code, d->message,
                                            place + ":" + std::to_string(d->span.begin.line)));
   }
 
@@ -182,8 +182,9 @@ class StudyReader {
       const std::optional<Drawable> drawable = find_drawable(text.name.text, file_, *first_);
       if (!drawable) {
         const std::vector<std::string> known = drawable_names(file_, *first_);
-        diagnostics_.add(
-            wording::unknown_draw(text.name.span, text.name.text, nearest(text.name.text, known), known));
+        diagnostics_.add(wording::unknown_draw(text.name.span, text.name.text,
+                                               missing_number(text.name.text, *first_),
+                                               nearest(text.name.text, known), known));
         continue;
       }
       if (complain_of_factor(text, *drawable)) continue;
@@ -240,7 +241,7 @@ class StudyReader {
     for (std::size_t i = 0; i < study_.draws.size(); ++i) {
       const Draw& draw = study_.draws[i];
       const bool is_normal = draw.distribution.spread == Spread::normal;
-      for (const double end : {is_normal ? 0.025 : 0x1p-53, is_normal ? 0.975 : 1.0 - 0x1p-53}) {
+      for (const double end : {is_normal ? 0.025 : 0.0, is_normal ? 0.975 : 1.0 - 0x1p-53}) {
         std::vector<double> shares = middle;
         shares[i] = end;
         // Most draws change what is read already: reading it again costs as much as a second of a run.
@@ -260,8 +261,10 @@ class StudyReader {
     Diagnostics of_study;
     const auto run = with_draws(study_, cell, read, of_study, of_task);
     if (!run) {
+      // A value that cannot be has its place: the draw. An error of the cell itself is told where it began.
       const auto d = of_study.first_error();
-      diagnostics_.add(wording::bad_draw(cause, d ? d->message : "this cannot be drawn", d ? d->help : ""));
+      diagnostics_.add(wording::bad_draw(d && d->code == "E931" ? d->span : cause,
+                                         d ? d->message : "this cannot be drawn", d ? d->help : ""));
       return false;
     }
     if (!run->program) complain_of_refusal({cause}, cell.cell().name, of_task);

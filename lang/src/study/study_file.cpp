@@ -82,9 +82,15 @@ bool complain_of_order(const DrawText& draw, double first, double second, Diagno
     return true;
   }
   const bool is_range = *draw.spread == Spread::uniform || *draw.spread == Spread::log_uniform;
+  if (is_range && first == second) {
+    const std::string value = draw.numbers.items.front().text;
+    diagnostics.add(wording::bad_distribution(span, "the range of " + name + " holds one value",
+                                              "write `choice: [" + value + "]`, or two ends that differ"));
+    return true;
+  }
   if (is_range && !(first < second)) {
-    diagnostics.add(
-        wording::bad_distribution(span, "the range of " + name + " is empty", "write the lower end first"));
+    diagnostics.add(wording::bad_distribution(span, "the range of " + name + " has its upper end first",
+                                              "write the lower end first"));
     return true;
   }
   if (*draw.spread == Spread::log_uniform && !(first > 0.0)) {

@@ -40,6 +40,10 @@ ReadsOpenTexts::~ReadsOpenTexts() {
   innermost = outer_;
 }
 
+OpenTexts open_texts() {
+  return innermost == nullptr ? OpenTexts() : *innermost;
+}
+
 const std::string* open_text_of(const std::filesystem::path& file) {
   return innermost == nullptr ? nullptr : innermost->find(file);
 }

@@ -77,6 +77,8 @@ bool prescan_characters(int source, std::string_view text, const char* code, Dia
     const Span span = span_at(source, index, at, at + 1);
     if (!c) {
       diagnostics.add(wording::not_utf8(span, code));
+    } else if (lone_return && std::string_view(code) == "E100") {
+      diagnostics.add(wording::lone_return(span));
     } else {
       diagnostics.add(wording::forbidden_character(span, code, c->value));
     }

@@ -203,16 +203,22 @@ class MjcfWriter {
     text_ += "</contact>\n";
   }
 
-  bool moves(std::size_t k) const { return scene_.objects[k].moves(); }
-  /// A drawer's cabinet and a door's frame stand where the drawer and the door are: what a guide carries
-  /// meets only what moves freely.
+  bool can_move(std::size_t k) const {
+    const SceneObject& object = scene_.objects[k];
+    return object.guide ? !object.is_locked() : object.moves();
+  }
+  /// A drawer's cabinet and a door's frame stand around the drawer and the door. Whatever does not move
+  /// freely and stands nearer than this to something on a guide, as it is written, counts as that: they never
+  /// meet.
+  static constexpr double clearance = 0.02;  // [m] more than the play of a door in its frame
   bool meet(std::size_t k, std::size_t other) const {
-    const bool k_guided = scene_.objects[k].guide.has_value();
-    const bool other_guided = scene_.objects[other].guide.has_value();
-    if (k_guided && other_guided) return false;
-    if (k_guided) return moves(other);
-    if (other_guided) return moves(k);
-    return moves(k) || moves(other);
+    if (!can_move(k) && !can_move(other)) return false;
+    const SceneObject& one = scene_.objects[k];
+    const SceneObject& two = scene_.objects[other];
+    const auto is_free = [](const SceneObject& object) { return object.moves() && !object.guide; };
+    const bool is_guided = one.guide || two.guide;
+    if (!is_guided || is_free(one) || is_free(two)) return true;
+    return gap_between(one, two, robots_.front().robot.bumper_height) > clearance;
   }
 
   /// Ties that hold nothing until the plant puts one in force: the hook's origin to a point of the object.

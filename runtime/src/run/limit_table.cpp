@@ -87,32 +87,38 @@ LimitTable::LimitTable(const StatementTable& statements, const lang::Robot& robo
 }
 
 /// Mostly a value is far from its limit, and was nearer before.
-inline void LimitTable::compare(int index, double value, double low, double high) noexcept {
+inline void LimitTable::compare(int index, double value, double low, double high, Kind kind) noexcept {
   if (index < 0) return;
   const double to_high = high - value, to_low = value - low;
   const double margin = std::min(to_high, to_low);
   const bool is_far = margin > far_share * (to_high + to_low);
   if (is_far && margin >= nearest_[static_cast<std::size_t>(index)].margin) return;
-  take(index, {to_high <= to_low ? high : low, value, margin}, high - low, 0.0);
+  take(index, {to_high <= to_low ? high : low, value, margin}, high - low, 0.0, kind);
 }
 
-void LimitTable::take(int index, const Nearest& now, double range, double least_share) noexcept {
+void LimitTable::take(int index, const Nearest& now, double range, double least_share, Kind kind) noexcept {
   if (!std::isfinite(now.margin)) return;
   Nearest& nearest = nearest_[static_cast<std::size_t>(index)];
   if (now.margin < nearest.margin) nearest = now;
   const double whole = std::isfinite(range) ? range : one_sided_range;
   const double share = std::max(now.margin / whole, least_share);
-  if (share < at_limit_share && (tightest_ < 0 || share < tightest_share_)) {
-    tightest_ = index;
-    tightest_share_ = share;
-    tightest_now_ = now;
-  }
+  if (share >= at_limit_share) return;
+  // A driver at its force range pushes against something. A place that is at its limit tells what.
+  const bool was_push = tightest_ >= 0 && tightest_kind_ == Kind::push;
+  const bool was_place = tightest_ >= 0 && tightest_kind_ == Kind::place;
+  if (kind == Kind::push && was_place) return;
+  const bool tells_more = kind == Kind::place && was_push;
+  if (tightest_ >= 0 && !tells_more && share >= tightest_share_) return;
+  tightest_ = index;
+  tightest_kind_ = kind;
+  tightest_share_ = share;
+  tightest_now_ = now;
 }
 
 void LimitTable::compare_motion(const Indices& of, const solver::AxisConstraint& c,
                                 const solver::Coordinate& now) noexcept {
   if (c.measure == solver::Measure::turn) return;
-  if (c.position) compare(of[0], now.position, c.position->low, c.position->high);
+  if (c.position) compare(of[0], now.position, c.position->low, c.position->high, Kind::place);
   if (c.velocity) compare(of[1], now.velocity, c.velocity->low, c.velocity->high);
 }
 
@@ -134,13 +140,14 @@ void LimitTable::compare_force(const Indices& of, const solver::AxisConstraint& 
                                double nu) noexcept {
   switch (row.kind) {
     case solver::RowKind::driver:
-      return compare(of[3], nu, c.driver->force.low, c.driver->force.high);
+      return compare(of[3], nu, c.driver->force.low, c.driver->force.high, Kind::push);
     case solver::RowKind::sum:
       return compare(of[3], nu, c.force->low, c.force->high);
     case solver::RowKind::force: {
       // It is meant to be at its force: that shows only when nothing else is at its limit.
       const double f = std::abs(row.force);  // of a spring what it asks for now
-      return take(of[3], {nu < 0.0 ? -f : f, nu, f - std::abs(nu)}, 2.0 * f, 0.99 * at_limit_share);
+      return take(of[3], {nu < 0.0 ? -f : f, nu, f - std::abs(nu)}, 2.0 * f, 0.99 * at_limit_share,
+                  Kind::push);
     }
     case solver::RowKind::upper:
     case solver::RowKind::lower:

@@ -53,8 +53,10 @@ class LimitTable {
                     const std::vector<InForce>& in_force, const solver::Solution& solution,
                     bool blends) noexcept;
   LimitReport report_of(std::size_t index, const Nearest& nearest) const;
-  void compare(int index, double value, double low, double high) noexcept;
-  void take(int index, const Nearest& now, double range, double least_share) noexcept;
+  /// A position or a region; the force of a driver; anything else.
+  enum class Kind { other, place, push };
+  void compare(int index, double value, double low, double high, Kind kind = Kind::other) noexcept;
+  void take(int index, const Nearest& now, double range, double least_share, Kind kind) noexcept;
 
   std::vector<LimitReport> limits_;  ///< their names
   std::vector<Nearest> nearest_;     ///< by limit
@@ -63,6 +65,7 @@ class LimitTable {
   std::size_t first_torque_ = 0;
   // At its limit now: the one with the least share of its range left.
   int tightest_ = -1;
+  Kind tightest_kind_ = Kind::other;
   double tightest_share_ = 0.0;
   Nearest tightest_now_;
 };

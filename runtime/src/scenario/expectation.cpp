@@ -192,7 +192,8 @@ ExpectationResult ExpectationWatch::result(const std::string& outcome,
   }
   const double deadline = begin_ + expectation_.within;
   result.held = held_since_ <= deadline;
-  result.margin = (deadline - held_since_) / (expectation_.within > 0.0 ? expectation_.within : 1.0);
+  // The margin is a share of the time that is given. Of none there is no share.
+  if (expectation_.within > 0.0) result.margin = (deadline - held_since_) / expectation_.within;
   result.value = held_since_ - begin_;
   result.unit.append("s");  // GCC bug 105651
   result.time = held_since_;

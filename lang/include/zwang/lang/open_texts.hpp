@@ -39,6 +39,9 @@ class ZWANG_EXPORT ReadsOpenTexts {
 /// The text that the innermost scope of this thread holds for the file; nullptr when there is none.
 ZWANG_EXPORT const std::string* open_text_of(const std::filesystem::path& file);
 
+/// All that the innermost scope of this thread holds: a copy, to which another scope may add.
+ZWANG_EXPORT OpenTexts open_texts();
+
 /// The name by which `OpenTexts` knows a file: links followed, absolute; as given where that fails.
 ZWANG_EXPORT std::filesystem::path canonical_name(const std::filesystem::path& file);
 
