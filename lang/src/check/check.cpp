@@ -89,7 +89,7 @@ Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText
   if (condition && !exit.dwell && !exit.is_incomplete && measures(context, *condition)) {
     context.diagnostics.add(wording::measured_without_for(exit.when.span));
   }
-  if (condition) check_is_open(context, *condition);
+  if (condition) check_is_open(context, *condition, task != nullptr ? task->groups : none);
   if (condition && exit.release) check_release(context, exit, *condition, compared);
   check_target(context, exit.target, task);
   check_sets(context, exit.set);

@@ -55,14 +55,47 @@ void check_ends(CheckContext& context, const std::vector<std::vector<Condition>>
   }
 }
 
-/// The same condition again, with no shorter `for`, can never be the first to fire.
-void check_hidden(CheckContext& context, const std::vector<ExitText>& exits) {
+/// An exit's condition as the cases in which it is true, and as those in which it is false. None: it has a
+/// parameter, which may take another value, or a threshold for its way back.
+struct ExitCases {
+  std::optional<std::vector<Case>> are_true, are_false;
+};
+
+ExitCases cases_of_exit(const CheckContext& context, const ExitText& exit, const Condition& condition,
+                        const std::vector<GroupText>& groups) {
+  const bool is_asked = !exit.release && exit.when.text.find('$') == std::string::npos;
+  if (!is_asked) return {};
+  return {cases_of(context, condition, groups), cases_of(context, condition, groups, true)};
+}
+
+/// Whether the first exit's condition is true wherever the second one's is: no case of the second one leaves
+/// the first one false. Of times alone W511 tells.
+bool covers(const ExitCases& first, const ExitCases& second) {
+  if (!first.are_false || !second.are_true || first.are_false->empty() || second.are_true->empty())
+    return false;
+  const auto is_time = [](const Case& one) {
+    return one.size() == 1 && one.begin()->second.node->op == Op::elapsed;
+  };
+  if (std::all_of(first.are_false->begin(), first.are_false->end(), is_time)) return false;
+  return std::none_of(second.are_true->begin(), second.are_true->end(), [&](const Case& one) {
+    return std::any_of(first.are_false->begin(), first.are_false->end(),
+                       [&](const Case& other) { return both(one, other).has_value(); });
+  });
+}
+
+/// A condition that an earlier one covers, with no shorter `for`, can never be the first to fire. Without
+/// `conditions` only the same text counts: an exit of `always` waits while its target is active.
+void check_hidden(CheckContext& context, const std::vector<ExitText>& exits,
+                  const std::vector<Condition>& conditions, const std::vector<GroupText>& groups) {
+  std::vector<ExitCases> cases(exits.size());
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    cases[i] = cases_of_exit(context, exits[i], conditions[i], groups);
   for (std::size_t i = 0; i < exits.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (exits[i].when.text != exits[j].when.text ||
-          dwell_of(context, exits[i]) < dwell_of(context, exits[j]))
-        continue;
-      context.diagnostics.add(wording::hidden_exit(exits[i].when.span, exits[j].when.span));
+      if (dwell_of(context, exits[i]) < dwell_of(context, exits[j])) continue;
+      const bool is_same = exits[i].when.text == exits[j].when.text;
+      if (!is_same && !covers(cases[j], cases[i])) continue;
+      context.diagnostics.add(wording::hidden_exit(exits[i].when.span, exits[j].when.span, is_same));
       break;
     }
   }
@@ -122,8 +155,9 @@ void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>
       context.diagnostics.add(wording::unreachable_task(task.name.span, task.name.text));
     }
   }
-  for (const TaskText& task : context.file.tasks) check_hidden(context, task.exits);
-  check_hidden(context, context.file.always_exits);
+  for (std::size_t i = 0; i < context.file.tasks.size(); ++i)
+    check_hidden(context, context.file.tasks[i].exits, conditions[i], context.file.tasks[i].groups);
+  check_hidden(context, context.file.always_exits, {}, {});
   check_loops(context, conditions, always_conditions, reached);
   check_uses(context);
 }

@@ -62,6 +62,8 @@ class AxisCheck {
     for (const solver::Quantity quantity : quantities_of_axis) check_statement(quantity);
     check_single_driver();
     check_place_on_feature();
+    const bool is_bearing = feature_ != nullptr && feature_->kind == FeatureKind::bearing;
+    if (is_bearing || (feature_ == nullptr && turns())) check_half_turn(context_, text_, path_);
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
     check_yield();

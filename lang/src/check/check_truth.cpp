@@ -43,9 +43,10 @@ Interval parameter_interval(const CheckContext& context, int index) {
   return {};
 }
 
-Interval feature_interval(const Feature& feature) {
+Interval feature_interval(const Feature& feature, bool knows_half_turns) {
   if (feature.kind == FeatureKind::direction) return {};
-  if (feature.kind == FeatureKind::bearing) return {-std::numbers::pi, std::numbers::pi};
+  if (feature.kind == FeatureKind::bearing)
+    return knows_half_turns ? Interval{-std::numbers::pi, std::numbers::pi} : Interval{};
   return {0.0, feature.kind == FeatureKind::distance ? infinity : std::numbers::pi};
 }
 
@@ -54,8 +55,27 @@ Interval part_interval(const ExpressionNode& wrench) {
   return wrench.axis == static_cast<int>(WrenchPart::plane) ? Interval{0.0, infinity} : Interval{};
 }
 
-Interval interval_of(const CheckContext& context, const ExpressionNode& node, const Interval& a,
-                     const Interval& b) {
+/// What a condition is asked with.
+struct TruthOf {
+  const CheckContext& context;
+  const std::vector<GroupText>& groups;  ///< of the task that it stands in
+  bool knows_half_turns = true;          ///< that angles start anew at 180 deg
+};
+
+/// The position along a rotation starts anew at half a turn.
+Interval coordinate_interval(const TruthOf& truth, const ExpressionNode& node) {
+  if (node.what == CoordinateQuantity::saturated) return undecided;
+  const auto& groups = node.in_always ? truth.context.file.always_groups : truth.groups;
+  const auto index = static_cast<std::size_t>(node.index);
+  if (node.what != CoordinateQuantity::position || node.axis < 0 || index >= groups.size()) return {};
+  const GroupText& group = groups[index];
+  const bool turns = group.kind == GroupKind::axes &&
+                     group.axes[static_cast<std::size_t>(node.axis)].name.text.starts_with("r");
+  return turns && truth.knows_half_turns ? Interval{-std::numbers::pi, std::numbers::pi} : Interval{};
+}
+
+Interval interval_of(const TruthOf& truth, const ExpressionNode& node, const Interval& a, const Interval& b) {
+  const CheckContext& context = truth.context;
   switch (node.op) {
     case Op::constant:
       return {node.number, node.number};
@@ -67,7 +87,7 @@ Interval interval_of(const CheckContext& context, const ExpressionNode& node, co
     case Op::of_task:
       return {function_of(node).values.low, function_of(node).values.high};
     case Op::coordinate:
-      return node.what == CoordinateQuantity::saturated ? undecided : Interval{};
+      return coordinate_interval(truth, node);
     case Op::signal:
       if (node.axis >= 0) return part_interval(node);
       return context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type == SignalType::boolean
@@ -83,7 +103,8 @@ Interval interval_of(const CheckContext& context, const ExpressionNode& node, co
     case Op::valid:
       return undecided;
     case Op::feature:
-      return feature_interval(context.symbols.features[static_cast<std::size_t>(node.index)].feature);
+      return feature_interval(context.symbols.features[static_cast<std::size_t>(node.index)].feature,
+                              truth.knows_half_turns);
     case Op::abs:
       return {a.low > 0.0 ? a.low : a.high < 0.0 ? -a.high : 0.0, std::max(-a.low, a.high)};
     case Op::negate:
@@ -149,13 +170,13 @@ ValueText fixed_text(const CheckContext& context, const Condition& condition, in
 
 namespace {
 
-Interval root_of(const CheckContext& context, const Condition& condition) {
+Interval root_of(const TruthOf& truth, const Condition& condition) {
   std::vector<Interval> intervals;
   for (const ExpressionNode& node : condition.nodes) {
     const Interval none;
     const Interval& a = node.left >= 0 ? intervals[static_cast<std::size_t>(node.left)] : none;
     const Interval& b = node.right >= 0 ? intervals[static_cast<std::size_t>(node.right)] : none;
-    const Interval result = interval_of(context, node, a, b);
+    const Interval result = interval_of(truth, node, a, b);
     intervals.push_back(result);
   }
   return intervals.empty() ? Interval{} : intervals.back();
@@ -163,15 +184,18 @@ Interval root_of(const CheckContext& context, const Condition& condition) {
 
 }  // namespace
 
-bool is_decided(const CheckContext& context, const Condition& condition) {
-  const Interval root = root_of(context, condition);
+bool is_decided(const CheckContext& context, const Condition& condition,
+                const std::vector<GroupText>& groups) {
+  const Interval root = root_of({context, groups}, condition);
   return root.low == root.high;
 }
 
-void check_is_open(CheckContext& context, const Condition& condition) {
-  if (is_decided(context, condition))
-    context.diagnostics.add(
-        wording::decided_condition(condition.span, root_of(context, condition).low > 0.5));
+void check_is_open(CheckContext& context, const Condition& condition, const std::vector<GroupText>& groups) {
+  const Interval root = root_of({context, groups}, condition);
+  if (root.low != root.high) return;
+  const Interval without = root_of({context, groups, false}, condition);
+  context.diagnostics.add(
+      wording::decided_condition(condition.span, root.low > 0.5, without.low != without.high));
 }
 
 void check_release(CheckContext& context, const ExitText& exit, const Condition& condition,

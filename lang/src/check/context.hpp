@@ -69,6 +69,8 @@ void check_world(CheckContext& context);
 void check_groups(CheckContext& context, const std::vector<GroupText>& groups);
 /// A group `inside` a region.
 void check_inside(CheckContext& context, const GroupText& group);
+/// E413, W421: positions beyond half a turn, of an axis that turns or a bearing.
+void check_half_turn(CheckContext& context, const AxisText& axis, const std::string& path);
 /// W402: what a task's drivers ask for and `always` does not allow.
 void check_against_always(CheckContext& context, const TaskText& task);
 /// E506: `release` must lie on the far side of a single comparison's threshold.
@@ -79,9 +81,10 @@ constexpr bool is_comparison(Op op) {
   return op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
 }
 /// Whether the signs of its parts alone decide the condition.
-bool is_decided(const CheckContext& context, const Condition& condition);
+bool is_decided(const CheckContext& context, const Condition& condition,
+                const std::vector<GroupText>& groups);
 /// E505: of such a condition.
-void check_is_open(CheckContext& context, const Condition& condition);
+void check_is_open(CheckContext& context, const Condition& condition, const std::vector<GroupText>& groups);
 void check_sets(CheckContext& context, const std::vector<SetText>& sets);
 /// nullopt on an error. `compared` takes what the two sides of a single comparison measure, `of_nodes` what
 /// each node does.

@@ -183,10 +183,11 @@ Diagnostic endless_task(const Span& span, const std::string& task);
 Diagnostic signal_without_age(const Span& span, const std::string& name);
 Diagnostic latch_is_not_bool(const Span& span, const std::string& signal, const std::string& type);
 Diagnostic latch_off_the_base(const Span& span, const std::string& frame, const std::string& base);
-Diagnostic decided_condition(const Span& span, bool is_always);
+/// `by_half_turn`: because an angle starts anew at 180 deg.
+Diagnostic decided_condition(const Span& span, bool is_always, bool by_half_turn);
 Diagnostic release_without_threshold(const Span& span);
 Diagnostic release_on_wrong_side(const Span& span, bool is_below);
-Diagnostic hidden_exit(const Span& span, const Span& first);
+Diagnostic hidden_exit(const Span& span, const Span& first, bool is_same);
 Diagnostic back_without_interruption(const Span& span, bool under_always);
 
 // --- Robot files and URDFs: E801 to E860; scenes: E901 (wordings_robot.cpp) ---
@@ -284,6 +285,10 @@ Diagnostic no_rollers(const Span& span, const std::string& robot);
 Diagnostic unknown_outcome(const Span& span, const std::string& text, const std::vector<std::string>& known);
 Diagnostic one_expectation(const Span& span);
 Diagnostic at_the_end_only(const Span& span);
+/// Of one robot.
+Diagnostic two_outcomes(const Span& span, const std::string& first, const std::string& second,
+                        const Span& first_span);
+Diagnostic within_no_time(const Span& span);
 Diagnostic nothing_expected(const Span& span);
 Diagnostic empty_matrix_key(const Span& span, const std::string& key);
 Diagnostic too_many_cells(const Span& span, std::size_t most);

@@ -1,5 +1,6 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_never.hpp"
 #include "words/text.hpp"
 
 namespace zwang::lang::wording {
@@ -53,6 +54,35 @@ Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
 Diagnostic missing_argument(const Span& span, const std::string& function) {
   return error("E105", span, "`" + function + "()` does not say of what",
                "for example `" + function + "(base_link)`");
+}
+
+Diagnostic decided_condition(const Span& span, bool is_always, bool by_half_turn) {
+  const std::string what = is_always ? "this condition is always true" : "this condition can never be true";
+  if (by_half_turn)
+    return error("E505", span, what + ": an angle starts anew at 180 deg",
+                 "compare within half a turn; `turned(FRAME)` counts on");
+  return error("E505", span, what, "compare with a value that what is measured can pass");
+}
+
+Diagnostic beyond_half_a_turn(const Span& span, const std::string& axis) {
+  return error(
+      "E413", span,
+      "`" + axis + "` starts anew at 180 deg, and this range goes beyond: the base would turn on and on",
+      "keep both ends within [-180 deg, 180 deg]; for a range about 180 deg turn the frame of `in`");
+}
+
+Diagnostic wraps_to(const Span& span, const std::string& axis, double target, double instead) {
+  return warning("W421", span,
+                 "`" + axis + "` goes the shorter way to " + angle_in_degrees(instead) +
+                     ", which is what it measures there: angles start anew at 180 deg, and " +
+                     angle_in_degrees(target) + " is beyond",
+                 "write `" + angle_in_degrees(instead) +
+                     "`; to turn on, drive a velocity until `turned(FRAME)` says how far");
+}
+
+Diagnostic part_is_always_true(const Span& span) {
+  return warning("W511", span, "this is true at once: one of its parts always is",
+                 "join them with `and`, or look at the direction of the comparisons");
 }
 
 }  // namespace zwang::lang::wording

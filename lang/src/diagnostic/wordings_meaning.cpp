@@ -369,11 +369,6 @@ Diagnostic latch_off_the_base(const Span& span, const std::string& frame, const 
                "name a frame that the base carries, such as its hook");
 }
 
-Diagnostic decided_condition(const Span& span, bool is_always) {
-  return error("E505", span, is_always ? "this condition is always true" : "this condition can never be true",
-               "compare with a value that what is measured can pass");
-}
-
 Diagnostic release_without_threshold(const Span& span) {
   return error("E506", span, "`release` needs a single comparison with a fixed value",
                "for example `when: nearest < 0.8 m`, `release: 1.2 m`");
@@ -385,9 +380,9 @@ Diagnostic release_on_wrong_side(const Span& span, bool is_below) {
                    " the threshold: the condition could never stay true");
 }
 
-Diagnostic hidden_exit(const Span& span, const Span& first) {
+Diagnostic hidden_exit(const Span& span, const Span& first, bool is_same) {
   return with_related(warning("W507", span, "an earlier exit always fires first"), first,
-                      "it has the same condition");
+                      is_same ? "it has the same condition" : "it is true wherever this one is");
 }
 
 Diagnostic back_without_interruption(const Span& span, bool under_always) {

@@ -238,12 +238,15 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
             "` (" + figure(u.bound, unit.force) + " after " + figure(after, "s") +
             "), or `force: " + figure(std::copysign(u.bound, u.velocity), unit.force) + ", velocity: +-" +
             figure(std::abs(u.velocity), unit.speed) + "`";
+  } else if (!u.sum.empty()) {
+    help += "; to press harder widen `" + u.sum + "`, which bounds the sum of all forces";
   } else if (limit.exists()) {
     help +=
         "; to press harder allow an acceleration of `" + figure(u.bound / u.mass, unit.acceleration) + "`";
   }
   const std::string from =
-      u.velocity != 0.0 && !limit.exists()
+      !u.sum.empty() ? "`" + u.sum + "` bounds the sum of all forces"
+      : u.velocity != 0.0 && !limit.exists()
           ? figure(u.mass, unit.mass) + " x " + figure(std::abs(u.velocity), unit.speed) + " / " +
                 figure(u.time_constant, "s")
           : figure(u.mass, unit.mass) + " x " + figure(u.acceleration, unit.acceleration);
@@ -252,7 +255,7 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
               "blocked, `" + u.axis + "` presses with " + figure(u.pressed, unit.force) + " (" + from +
                   "), never with " + figure(u.bound, unit.force),
               help),
-      limit, "the acceleration is limited here");
+      limit, u.sum.empty() ? "the acceleration is limited here" : "the sum is limited here");
 }
 
 Diagnostic limited_range(const Span& span, const Unreached& u, const Span& limit) {
@@ -276,19 +279,25 @@ Diagnostic never_saturated(const Span& span, const Unreached& u, double motors) 
                  "give the axis a force range of `+-" + figure(0.9 * u.pressed, unit.force) + "` or less");
 }
 
-Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit) {
+Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit,
+                          const std::string& sum) {
   const AxisUnits unit = axis_units(cap.turns);
   const double degrees = 180.0 / 3.14159265358979;
-  return related_where_known(
-      warning("W601", span,
-              "`" + cap.axis + "` would push with " + figure(cap.wanted, unit.force) +
-                  ", the acceleration limit caps it at " + figure(cap.most, unit.force) + " (" +
-                  figure(cap.mass, unit.mass) + " x " + figure(cap.most / cap.mass, unit.acceleration) +
-                  "): from " + figure(cap.turns ? clipped * degrees : clipped, unit.way) +
-                  " on it is no spring",
-              "`force: +-" + figure(cap.most, unit.force) + "` says so, or allow an acceleration of `" +
-                  figure(cap.wanted / cap.mass, unit.acceleration) + "`"),
-      limit, "the acceleration is limited here");
+  const std::string way = figure(cap.turns ? clipped * degrees : clipped, unit.way);
+  const std::string most = figure(cap.most, unit.force), wanted = figure(cap.wanted, unit.force);
+  const std::string cause = sum.empty() ? "the acceleration limit caps it at " + most + " (" +
+                                              figure(cap.mass, unit.mass) + " x " +
+                                              figure(cap.most / cap.mass, unit.acceleration) + ")"
+                                        : "`" + sum + "` caps the sum of all forces at " + most;
+  const std::string fix =
+      sum.empty() ? "allow an acceleration of `" + figure(cap.wanted / cap.mass, unit.acceleration) + "`"
+                  : "widen `" + sum + "` to `+-" + wanted + "`";
+  return related_where_known(warning("W601", span,
+                                     "`" + cap.axis + "` would push with " + wanted + ", " + cause +
+                                         ": from " + way + " on it is no spring",
+                                     "`force: +-" + most + "` says so, or " + fix),
+                             limit,
+                             sum.empty() ? "the acceleration is limited here" : "the sum is limited here");
 }
 
 Diagnostic stops_too_late(const Span& span, const LateGuard& g, const std::string& limit,

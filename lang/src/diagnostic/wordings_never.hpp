@@ -69,6 +69,11 @@ Diagnostic never_true(const Span& span, const Kept& kept);
 Diagnostic only_from_outside(const Span& span, const Kept& kept, bool or_entered);
 Diagnostic always_true(const Span& span, const Kept& kept);
 Diagnostic contradicts_itself(const Span& span);
+/// Each of its parts leaves out what another one takes.
+Diagnostic part_is_always_true(const Span& span);
+/// An angle that starts anew at half a turn: a range beyond it, and a target that it is `instead`. [rad]
+Diagnostic beyond_half_a_turn(const Span& span, const std::string& axis);
+Diagnostic wraps_to(const Span& span, const std::string& axis, double target, double instead);
 /// Two regions that hold one base and are `apart` [m].
 Diagnostic excluding_regions(const Span& span, const std::string& own, const std::string& other, double apart,
                              const Span& other_span);
@@ -86,6 +91,7 @@ struct Unreached {
   double velocity = 0.0;       ///< of a velocity driver
   double time_constant = 0.0;  ///< [s]
   double enough = 0.0;         ///< a time constant with which it reaches the bound [s]; 0: none does
+  std::string sum;             ///< a path that bounds the sum of all forces to `pressed`; empty: none
 };
 /// `limit`: where the acceleration is limited; may be nowhere.
 Diagnostic never_reached(const Span& span, const Unreached& unreached, const Span& limit);
@@ -93,8 +99,10 @@ Diagnostic never_reached(const Span& span, const Unreached& unreached, const Spa
 Diagnostic limited_range(const Span& span, const Unreached& unreached, const Span& limit);
 /// A guard on `saturated`, at `span`, of a driver that has no force range. `motors`: what they make along it.
 Diagnostic never_saturated(const Span& span, const Unreached& unreached, double motors);
-/// `clipped`: from which way on. [m] or [rad]
-Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit);
+/// `clipped`: from which way on. [m] or [rad] `sum`: the path of a force range on the sum of all rows, if it
+/// clips.
+Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit,
+                          const std::string& sum);
 
 /// A guard on a distance. [m], [m/s]
 struct LateGuard {

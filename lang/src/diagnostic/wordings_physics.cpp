@@ -203,14 +203,16 @@ Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, dou
               "blocked, `" + axis + "` presses with " + figure(pressed, u.force) + " at most (" +
                   product(mass, acceleration, u) + "): it never reaches this range",
               help),
-      guard, "this is never true");
+      guard, "a base that is blocked does not make this true");
 }
 
 Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& b,
                            double enough) {
   const AxisUnits u = axis_units(turns);
-  const std::string limit = b.by_force ? "its force range allows " + figure(b.allowed, u.acceleration) +
-                                             " (" + figure(b.allowed * b.mass, u.force) + " / " +
+  const std::string whose =
+      b.sum.empty() ? "its force range" : "`" + b.sum + "`, which bounds the sum of all forces,";
+  const std::string limit = b.by_force ? whose + " allows " + figure(b.allowed, u.acceleration) + " (" +
+                                             figure(b.allowed * b.mass, u.force) + " / " +
                                              figure(b.mass, u.mass) + ")"
                                        : "the acceleration limit allows " + figure(b.allowed, u.acceleration);
   return warning("W604", span,

@@ -62,6 +62,7 @@ struct Braking {
   double allowed = 0.0;        ///< [m/s^2] or [rad/s^2]
   double mass = 0.0;           ///< [kg] or [kg m^2]
   bool by_force = false;       ///< a force range allows it, over the mass
+  std::string sum;             ///< the path of the force range, where it is one of the sum of all rows
 };
 Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& braking,
                            double enough);

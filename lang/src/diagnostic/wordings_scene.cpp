@@ -49,6 +49,19 @@ Diagnostic at_the_end_only(const Span& span) {
       error("E904", span, "`at` knows one instant, the end", "write `at: end`, or use `within`"), "end");
 }
 
+Diagnostic two_outcomes(const Span& span, const std::string& first, const std::string& second,
+                        const Span& first_span) {
+  return with_related(
+      error("E904", span, "a run ends once: `" + first + "` and `" + second + "` exclude each other",
+            "keep one of them, or write a scenario for each"),
+      first_span, "the other outcome");
+}
+
+Diagnostic within_no_time(const Span& span) {
+  return error("E904", span, "`within: 0 s` leaves no time: it asks that the condition holds on every tick",
+               "write `always`, or give a time");
+}
+
 Diagnostic nothing_expected(const Span& span) {
   return error("E904", span, "a scenario that expects nothing cannot fail",
                "write for example `- outcome: done`");

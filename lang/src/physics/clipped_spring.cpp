@@ -1,6 +1,7 @@
-// W601 of a spring: drawn farther than s it pushes with no more than an acceleration limit leaves.
+// W601 of a spring: drawn farther than s it pushes with no more than an acceleration limit leaves, or a force
+// range that bounds the sum of all rows.
 //
-//   k s = m a_max      s: where it is clipped
+//   k s = min(m a_max, F_sum)      s: where it is clipped
 //
 // A force range says as much itself. It is told where s is less than a spring is meant to be drawn. That is
 // the way to a place to go to. Else it is the way that somebody pushes a base aside: 0.2 m or 20 deg.
@@ -34,15 +35,19 @@ void ask_springs(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     const AccelerationLimit ahead = acceleration_limit(plan, axis, 1.0, true);
     const AccelerationLimit back = acceleration_limit(plan, axis, -1.0, true);
     const AccelerationLimit& limit = ahead.most < back.most ? ahead : back;
-    if (!std::isfinite(limit.most)) continue;
-    const double most = figures->mass * limit.most;
+    const ForceLimit sum_ahead = sum_limit(plan, axis, 1.0), sum_back = sum_limit(plan, axis, -1.0);
+    const ForceLimit& sum = sum_ahead.most < sum_back.most ? sum_ahead : sum_back;
+    const double most = std::min(figures->mass * limit.most, sum.most);
+    if (!std::isfinite(most)) continue;
+    const bool by_sum = sum.most < figures->mass * limit.most;
     double asked = *axis.stiffness * drawn(axis, probe);
     if (const auto& range = axis[solver::Quantity::force])
       asked = std::min(asked, std::max(range->high, -range->low));
     if (asked <= most * (1.0 + 1e-6)) continue;
-    remarks.add(
-        wording::clipped_spring(axis.stiffness_span, {axis.path, axis.turns(), asked, most, figures->mass},
-                                most / *axis.stiffness, limit.from->span(solver::Quantity::acceleration)));
+    remarks.add(wording::clipped_spring(
+        axis.stiffness_span, {axis.path, axis.turns(), asked, most, figures->mass}, most / *axis.stiffness,
+        by_sum ? sum.from->span(solver::Quantity::force) : limit.from->span(solver::Quantity::acceleration),
+        by_sum ? sum.from->path : ""));
   }
 }
 

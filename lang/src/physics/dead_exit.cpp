@@ -46,7 +46,7 @@ class ExitQuestion {
       return;
     }
     const auto cases = cases_of(context_, condition, groups());
-    if (!cases || remarks.any_at(exit.when.span) || is_decided(context_, condition)) return;
+    if (!cases || remarks.any_at(exit.when.span) || is_decided(context_, condition, groups())) return;
     if (cases->empty()) {
       remarks.add(wording::contradicts_itself(exit.when.span));
       return;
@@ -89,7 +89,8 @@ class ExitQuestion {
     if (exit.target.text == "failed") return;
     latest_ = {};
     const auto cases = cases_of(context_, condition, groups(), true);
-    if (!cases || cases->empty()) return;
+    if (!cases) return;
+    if (cases->empty()) return remarks.add(wording::part_is_always_true(exit.when.span));
     std::optional<Found> why;
     for (const Case& one : *cases) {
       const std::optional<Found> found = contradicted(one, exit);

@@ -3,6 +3,7 @@
 // Blocked (ds = 0), a driver asks for the acceleration b, and the base presses with
 //
 //   m min(b, a_max)        a_max: of the acceleration ranges in force, of its own axis or of others
+//   at most F_sum          of force ranges without a driver, which bound the sum of all rows
 //
 //   velocity v             b = |v| / tau
 //   acceleration c         b = |c|
@@ -100,6 +101,15 @@ void ask_axis(const CheckContext& context, const PlannedTask& plan, const Planne
     if (context.with_notes && mass * made < bound)
       remarks.add(wording::limited_range(axis.span(solver::Quantity::force), unreached,
                                          own_limit.from->span(solver::Quantity::acceleration)));
+    return;
+  }
+  const ForceLimit sum = sum_limit(plan, axis, demand.b);
+  if (sum.most < mass * made) {
+    unreached.pressed = sum.most;
+    unreached.sum = sum.from->path;
+    if (sum.most < generous * bound)
+      remarks.add(wording::never_reached(axis.span(solver::Quantity::force), unreached,
+                                         sum.from->span(solver::Quantity::force)));
     return;
   }
   if (!(mass * made < generous * bound)) return;

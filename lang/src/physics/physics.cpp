@@ -45,6 +45,18 @@ AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis&
   return limit;
 }
 
+ForceLimit sum_limit(const PlannedTask& plan, const PlannedAxis& axis, double sign) {
+  ForceLimit limit;
+  for (const PlannedAxis& other : plan.axes) {
+    const std::optional<solver::Range>& range = other[solver::Quantity::force];
+    if (!range || other.driver || other.level > axis.level || &other == &axis || !bounds(other, axis))
+      continue;
+    const double most = sign > 0.0 ? range->high : -range->low;
+    if (most < limit.most) limit = {most, &other};
+  }
+  return limit;
+}
+
 namespace {
 
 /// The inputs of the questions that are the same in all tasks.

@@ -135,5 +135,12 @@ struct AccelerationLimit {
   const PlannedAxis* from = nullptr;
 };
 AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis& axis, double sign, bool own);
+/// Force that ranges on axes without a driver leave to the sum of the rows along the axis, in the direction
+/// of `sign`. They bound all rows from their level on. [N] or [N m]; infinite where there is none.
+struct ForceLimit {
+  double most = solver::infinity;
+  const PlannedAxis* from = nullptr;
+};
+ForceLimit sum_limit(const PlannedTask& plan, const PlannedAxis& axis, double sign);
 
 }  // namespace zwang::lang

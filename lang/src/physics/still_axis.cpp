@@ -2,8 +2,8 @@
 // nothing to see:
 //
 //   acceleration      < 1e-5 m/s^2, rad/s^2: 0.6 mm/s after a minute
-//   force             < that times the effective mass
-//   velocity          < 1e-6 m/s, rad/s, beside a position to go to
+//   force             < that times the effective mass; of the axis, or of the sum of all rows
+//   velocity          < 1e-6 m/s, rad/s, beside a position, a force or an acceleration; of a speed, too
 #include <algorithm>
 #include <cmath>
 
@@ -34,31 +34,67 @@ bool lies_along(const PlannedAxis& limit, const PlannedAxis& axis) {
           limit.in.pose.rotation.isApprox(axis.in.pose.rotation));
 }
 
-/// The range that forbids, and whose it is; nullptr: none does.
+/// The range that forbids, and whose it is.
 struct Forbidding {
   solver::Quantity quantity = solver::Quantity::acceleration;
-  const PlannedAxis* axis = nullptr;
+  std::string path;  ///< empty: the axis's own range
+  Span span;
 };
 
-Forbidding forbidding(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe) {
-  const bool goes_somewhere = axis.driver == solver::Quantity::position;
-  const double sign = *axis.target < 0.0 ? -1.0 : 1.0;
+Forbidding by(const PlannedAxis& limit, const PlannedAxis& axis, solver::Quantity quantity) {
+  return {quantity, &limit == &axis ? "" : limit.path, limit.span(quantity)};
+}
+
+std::optional<Forbidding> by_acceleration(const PlannedTask& plan, const PlannedAxis& axis, double sign) {
   AccelerationLimit limit = acceleration_limit(plan, axis, sign, true);
-  if (goes_somewhere) {
+  if (axis.driver == solver::Quantity::position) {
     const AccelerationLimit back = acceleration_limit(plan, axis, -sign, true);
     if (back.most > limit.most) limit = back;
   }
-  if (limit.from != nullptr && limit.most < least_acceleration && lies_along(*limit.from, axis))
-    return {solver::Quantity::acceleration, limit.from};
-  const auto& velocity = axis[solver::Quantity::velocity];
-  if (goes_somewhere && velocity && most_of(axis, *velocity) < least_velocity)
-    return {solver::Quantity::velocity, &axis};
-  const auto& force = axis[solver::Quantity::force];
-  if (!force || axis.driver == solver::Quantity::force) return {};
+  const bool forbids =
+      limit.from != nullptr && limit.most < least_acceleration && lies_along(*limit.from, axis);
+  return forbids ? std::optional(by(*limit.from, axis, solver::Quantity::acceleration)) : std::nullopt;
+}
+
+/// W416 tells of a velocity driver.
+std::optional<Forbidding> by_velocity(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe) {
+  if (axis.driver == solver::Quantity::velocity || axis.is_spring) return std::nullopt;
+  for (const PlannedAxis& other : plan.axes) {
+    const auto& range = other[solver::Quantity::velocity];
+    const int along = !range ? 0 : &other == &axis ? 1 : probe.alignment(axis, other);
+    if (along == 0) continue;
+    const solver::Range seen = along > 0 ? *range : solver::Range{-range->high, -range->low};
+    if (most_of(axis, seen) < least_velocity) return by(other, axis, solver::Quantity::velocity);
+  }
+  for (const PlannedSpeed& speed : plan.speeds) {
+    if (speed.body == axis.move.body && !axis.turns() && !axis.is_feature() && speed.most < least_velocity)
+      return Forbidding{solver::Quantity::velocity, speed.path, speed.span};
+  }
+  return std::nullopt;
+}
+
+std::optional<Forbidding> by_force(const PlannedTask& plan, const PlannedAxis& axis, double sign,
+                                   Probe& probe) {
   const AxisFigures* figures = probe.figures(axis);
-  const double mass = figures != nullptr && std::isfinite(figures->mass) ? figures->mass : 1.0;
-  if (most_of(axis, *force) < least_acceleration * mass) return {solver::Quantity::force, &axis};
-  return {};
+  const double least =
+      least_acceleration * (figures != nullptr && std::isfinite(figures->mass) ? figures->mass : 1.0);
+  const auto& own = axis[solver::Quantity::force];
+  if (own && axis.driver != solver::Quantity::force && most_of(axis, *own) < least)
+    return by(axis, axis, solver::Quantity::force);
+  ForceLimit sum = sum_limit(plan, axis, sign);
+  if (axis.driver == solver::Quantity::position) {
+    const ForceLimit back = sum_limit(plan, axis, -sign);
+    if (back.most > sum.most) sum = back;
+  }
+  const bool forbids = sum.from != nullptr && sum.most < least && lies_along(*sum.from, axis);
+  return forbids ? std::optional(by(*sum.from, axis, solver::Quantity::force)) : std::nullopt;
+}
+
+std::optional<Forbidding> forbidding(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe) {
+  const double sign = *axis.target < 0.0 ? -1.0 : 1.0;
+  if (auto found = by_acceleration(plan, axis, sign)) return found;
+  if (auto found = by_velocity(plan, axis, probe)) return found;
+  return by_force(plan, axis, sign, probe);
 }
 
 }  // namespace
@@ -68,10 +104,11 @@ void ask_still(PlannedTask& plan, Probe& probe, Remarks& remarks) {
     const bool is_asked = axis.driver && axis.target && axis.text != nullptr &&
                           (*axis.target != 0.0 || axis.driver == solver::Quantity::position) &&
                           axis.is_placed && !remarks.any_at(axis.driver_span());
-    const Forbidding by = is_asked ? forbidding(plan, axis, probe) : Forbidding{};
-    if (by.axis == nullptr) continue;
-    remarks.add(wording::stands_still(axis.driver_span(), axis.path, by.axis == &axis ? "" : by.axis->path,
-                                      word_of(by.quantity), by.axis->span(by.quantity)));
+    const std::optional<Forbidding> found =
+        is_asked ? forbidding(plan, axis, probe) : std::optional<Forbidding>();
+    if (!found) continue;
+    remarks.add(wording::stands_still(axis.driver_span(), axis.path, found->path, word_of(found->quantity),
+                                      found->span));
     axis.driver.reset();
   }
 }

@@ -5,8 +5,8 @@
 //
 //   a = v / (e tau)        e = 2.718...
 //
-// The acceleration range, or the force range over the effective mass, must allow that. Else the base
-// overshoots.
+// The acceleration range, or the force range over the effective mass, must allow that. So must a force range
+// of an axis without a driver, which bounds the sum of all rows. Else the base overshoots.
 //
 // Whatever drives, the ticks of the robot file's `control_period` dt must follow it. One tick passes
 // between sensing and torque, so a velocity error decays as z^2 - z + dt/tau = 0, without oscillation from
@@ -66,11 +66,16 @@ void ask_braking(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe,
     by_force = by_range < allowed;
     allowed = std::min(allowed, by_range);
   }
+  const ForceLimit ahead = sum_limit(plan, axis, 1.0), back = sum_limit(plan, axis, -1.0);
+  const ForceLimit& sum = ahead.most < back.most ? ahead : back;
+  const bool by_sum = sum.most / figures->mass < allowed;
+  if (by_sum) allowed = sum.most / figures->mass;
   // A range that allows nothing at all holds the axis on purpose.
   if (peak <= allowed || !(allowed > 0.0)) return;
-  remarks.add(wording::brakes_too_hard(axis.time_constant_span, axis.path, axis.turns(),
-                                       {v, axis.time_constant, peak, allowed, figures->mass, by_force},
-                                       v / (std::numbers::e * allowed)));
+  remarks.add(wording::brakes_too_hard(
+      axis.time_constant_span, axis.path, axis.turns(),
+      {v, axis.time_constant, peak, allowed, figures->mass, by_force || by_sum, by_sum ? sum.from->path : ""},
+      v / (std::numbers::e * allowed)));
 }
 
 void ask_spring(const PlannedAxis& axis, Probe& probe, Remarks& remarks) {

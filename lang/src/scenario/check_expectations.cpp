@@ -1,3 +1,4 @@
+#include "check/cases.hpp"
 #include "check/context.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
@@ -126,6 +127,18 @@ int find_robot(const Word& name, const Scene& scene, Diagnostics& diagnostics) {
   return -1;
 }
 
+/// E505: an expectation that no run can decide.
+void check_is_possible(CheckContext& context, const Condition& that) {
+  const int before = context.diagnostics.error_count();
+  check_is_open(context, that, {});
+  if (context.diagnostics.error_count() > before) return;
+  for (const bool is_negated : {false, true}) {
+    const auto cases = cases_of(context, that, {}, is_negated);
+    if (cases && cases->empty())
+      context.diagnostics.add(wording::decided_condition(that.span, is_negated, false));
+  }
+}
+
 std::vector<std::string> units_of(const Condition& condition, const std::vector<Dimension>& dimensions) {
   std::vector<std::string> units;
   for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
@@ -187,6 +200,7 @@ std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& f
     if (has_condition && !text.that.is_bad) {
       std::vector<Dimension> dimensions;
       if (auto that = check_condition(context, text.that, {}, nullptr, &dimensions)) {
+        check_is_possible(context, *that);
         expected.units = units_of(*that, dimensions);
         expected.that = std::move(*that);
       }

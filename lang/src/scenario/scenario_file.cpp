@@ -1,6 +1,7 @@
 #include "scenario/scenario_file.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
@@ -159,6 +160,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study
   if (!map.is_mapping()) return std::nullopt;
   ExpectationText expected;
   expected.span = node.span;
+  const int errors_before = diagnostics.error_count();
   const Node* outcome = map.optional("outcome");
   const Node* code = map.optional("diagnostic");
   const Node* at = map.optional("at");
@@ -194,6 +196,9 @@ std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study
     expected.kind = ExpectationKind::within;
     expected.within = parse_positive(*within, dimension::time, "`within`", true, diagnostics).value_or(0.0);
     if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
+    const bool is_always = expected.within == 0.0 && !expected.of.exists() && !within->is_bad;
+    if (is_always && within->is_scalar() && diagnostics.error_count() == errors_before)
+      diagnostics.add(wording::within_no_time(within->span));
   }
   if (const Node* sure = of_study ? map.optional("probability") : nullptr)
     expected.probability = parse_certainty(*sure, "`probability`", diagnostics);
@@ -208,6 +213,18 @@ std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study
   map.finish();
   if (!is_good) return std::nullopt;
   return expected;
+}
+
+/// One run has one outcome for each robot.
+void check_outcomes(const std::vector<ExpectationText>& all, Diagnostics& diagnostics) {
+  std::map<std::string, const ExpectationText*> outcome_of;
+  for (const ExpectationText& one : all) {
+    if (one.kind != ExpectationKind::outcome || !one.word.exists()) continue;
+    const auto [first, is_new] = outcome_of.try_emplace(one.of.text, &one);
+    if (!is_new && first->second->word.text != one.word.text)
+      diagnostics.add(wording::two_outcomes(one.word.span, first->second->word.text, one.word.text,
+                                            first->second->word.span));
+  }
 }
 
 }  // namespace
@@ -233,6 +250,7 @@ void parse_expectations(const Node& node, bool of_study, ScenarioFile& file, Dia
       file.expectations.push_back(std::move(*expected));
   }
   if (node.items.empty()) diagnostics.add(wording::nothing_expected(node.span));
+  if (!of_study) check_outcomes(file.expectations, diagnostics);
 }
 
 bool parse_time_limit(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
