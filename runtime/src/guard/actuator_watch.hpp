@@ -22,9 +22,10 @@ namespace zwang::runtime {
 /// a differential base, as far out as its wheel. Three things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
 ///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's. Where something was hit less than
-///    `after_a_hit` ago it has to drive the robot by `least_way` as well: a base that turns about a corner at
-///    the wall leans on it with what the wheel beside it is told, evenly, and that force does no work. That
-///    of a padded wall takes work, first by its damper, then by its spring, and is even in between.
+///    `after_a_hit` before, it has to drive the robot by `least_way` as well: a base that turns about a
+///    corner at the wall leans on it with what the wheel beside it is told, evenly, and that force does no
+///    work. An error of the mass seems to do some, so `own_way` of the rim's way is asked for. The force of a
+///    padded wall takes work, first by its damper, then by its spring, and is even in between.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
 ///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
@@ -62,7 +63,9 @@ class ActuatorWatch {
   static constexpr double turning = 0.1;  ///< [s] until then: what takes longer turns, as a cart in a bend
   static constexpr double after_a_hit = 1.0;   ///< [s] in which a base still bounces, and squares up
   static constexpr double least_way = 0.2e-3;  ///< [m] at the wheel's rim
-  static constexpr double travel = 0.5e-3;     ///< [m] of the wheel's rim
+  static constexpr double own_way =
+      0.5;  ///< of its rim's way: a motor drives all of it, a contact beside it none
+  static constexpr double travel = 0.5e-3;  ///< [m] of the wheel's rim
   static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:
@@ -72,6 +75,8 @@ class ActuatorWatch {
     int along_ticks = 0;               ///< that the force has had its direction, whatever its size
     int close_ticks = 0;               ///< that it has held closely
     ContactDepth::Mark contact;        ///< when it began to hold
+    double q = 0.0;                    ///< [rad] then
+    bool is_apart = false;             ///< then, from any hit
     double close_q = 0.0;              ///< [rad] where it began to hold closely
     ContactDepth::Mark close_contact;  ///< then
     double left = 0.0;                 ///< of |p|^2 that it does not explain
