@@ -71,8 +71,7 @@ const std::vector<Job>& jobs() {
   return all;
 }
 
-/// Their bounds are those of docs/limits.md: the blind budget counts the base, not the arm. Apart from
-/// `jobs`, so that a seed draws the same runs as ever.
+/// Apart from `jobs`, so that a seed draws the same runs as ever.
 const std::vector<Job>& other_jobs() {
   static const std::vector<Job> all{
       {"button.yaml", {"button"}, {"mecanum_arm_base"}, 10.0, 0.04, 8.0, 0.0},

@@ -113,8 +113,8 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   if (motor.is_met && motor.hardest < left_behind * std::abs(fit.f)) return false;
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
   const bool is_even = motor.is_armed && claim.ticks >= dwell_ticks_;
-  const bool is_apart = motor.ticks_since_hit >= after_a_hit_ticks_;
-  if (is_even && (is_apart || way_of(motor, fit, claim.contact, contact) > least_way)) return true;
+  const double least = std::max(least_way, own_way * motor.radius * std::abs(q - claim.q));
+  if (is_even && (claim.is_apart || way_of(motor, fit, claim.contact, contact) > least)) return true;
   const bool has_rolled = std::abs(q - claim.close_q) * motor.radius > travel;
   const bool has_turned = claim.along_ticks - claim.close_ticks > turning_ticks_;
   if (motor.obedience.is_seen() || has_turned || !has_rolled || !contact.is_no_spring(claim.close_contact))
@@ -168,7 +168,11 @@ void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, do
   }
   claim.ticks = fits ? claim.ticks + 1 : 0;
   claim.along_ticks = is_felt && fit.rest < most_unexplained * fit.all ? claim.along_ticks + 1 : 0;
-  if (claim.ticks <= 1) claim.contact = contact.now();
+  if (claim.ticks <= 1) {
+    claim.contact = contact.now();
+    claim.q = q;
+    claim.is_apart = motor.ticks_since_hit >= after_a_hit_ticks_;
+  }
   const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
   claim.left = left;
   const bool is_close = std::abs(fit.f) > late * motor.threshold && left < closely * closely * fit.all;

@@ -21,10 +21,10 @@ namespace zwang::runtime {
 /// The fault shows from the instant at which f is not 0. Contact can have the same direction, too: the corner
 /// of a differential base, as far out as its wheel. Three criteria tell a fault from contact.
 ///  - Size. Contact grows from nothing through that size to another one. A motor's force has the size at
-///    `entry` after its onset out of quiet, and keeps it `closely` for `dwell`. Where a hit is less than
-///    `after_a_hit` old, the force also has to drive the robot by `least_way`. A base that turns about a
+///    `entry` after its onset out of quiet, and keeps it `closely` for `dwell`. Where a hit was less than
+///    `after_a_hit` before, the force also has to drive the robot by `least_way`. A base that turns about a
 ///    corner at the wall leans on it evenly, with the command of the wheel beside it, and that force does no
-///    work. The force of a padded wall takes work, first by its damper, then by its spring, and is even in
+///    work. An error of the mass seems to do some, so `own_way` of the rim's way counts as well. The force of a padded wall takes work, first by its damper, then by its spring, and is even in
 ///    between.
 ///  - Place. Where the wheel rolls on by `travel`, a contact between the robot and a standing object gives
 ///    way or grows. A motor's force keeps its direction and size `closely` meanwhile, farther than a spring
@@ -64,7 +64,9 @@ class ActuatorWatch {
   static constexpr double turning = 0.1;  ///< [s] until then: what takes longer turns, as a cart in a bend
   static constexpr double after_a_hit = 1.0;   ///< [s] in which a base still bounces, and squares up
   static constexpr double least_way = 0.2e-3;  ///< [m] at the wheel's rim
-  static constexpr double travel = 0.5e-3;     ///< [m] of the wheel's rim
+  static constexpr double own_way =
+      0.5;  ///< of its rim's way: a motor drives all of it, a contact beside it none
+  static constexpr double travel = 0.5e-3;  ///< [m] of the wheel's rim
   static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:
@@ -74,6 +76,8 @@ class ActuatorWatch {
     int along_ticks = 0;               ///< that the force has had its direction, whatever its size
     int close_ticks = 0;               ///< that it has held closely
     ContactDepth::Mark contact;        ///< when it began to hold
+    double q = 0.0;                    ///< [rad] then
+    bool is_apart = false;             ///< then, from any hit
     double close_q = 0.0;              ///< [rad] where it began to hold closely
     ContactDepth::Mark close_contact;  ///< then
     double left = 0.0;                 ///< of |p|^2 that it does not explain
