@@ -28,7 +28,7 @@ namespace zwang::runtime {
 namespace {
 
 constexpr std::size_t stride = 7;                 // [bytes], prime to the lengths of fields
-constexpr std::uint64_t records_in_a_chunk = 50;  // 50 ms
+constexpr std::uint64_t records_in_a_chunk = 75;  // 75 ms
 
 struct Folder {
   zwang::test::TemporaryFolder temporary;
@@ -245,7 +245,7 @@ TEST(McapLog, DroppedRecordsAreMissingInTheLog) {
   EXPECT_NE(log.damage.back().find("missing before the end"), std::string::npos) << log.damage.back();
 }
 
-/// A chunk every 50 ms, and 118 bytes of each in the index: that is read back from the file at the end. Ten
+/// A chunk every 75 ms, and 118 bytes of each in the index: that is read back from the file at the end. Ten
 /// hours with ZWANG_LONG in the environment.
 TEST(McapLog, MemoryStaysFlatHoweverLongItGets) {
 #if defined(ZWANG_SANITIZED) || !defined(__GLIBC__)
@@ -257,7 +257,7 @@ TEST(McapLog, MemoryStaysFlatHoweverLongItGets) {
   ASSERT_EQ(sink->open(columns), "");
   std::size_t warm = 0;
   for (int i = 0; i < chunks; ++i) {
-    ASSERT_EQ(sink->write(std::vector<double>{i * 0.05, 0.0, i * 0.1}), "");
+    ASSERT_EQ(sink->write(std::vector<double>{i * 0.075, 0.0, i * 0.1}), "");
     if (i == chunks / 10) warm = mallinfo2().uordblks;
   }
   const std::size_t end = mallinfo2().uordblks;

@@ -19,7 +19,7 @@ using mcap::Content;
 using mcap::Opcode;
 
 // A killed run loses at most one chunk and what is on the way to it: not more than 100 ms together.
-constexpr std::uint64_t chunk_span = 50'000'000;          // [ns]
+constexpr std::uint64_t chunk_span = 75'000'000;          // [ns]
 constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
 // Where time stands still, because no samples arrive, its records have to be on disk all the same.
 constexpr std::size_t chunk_records = 100;
