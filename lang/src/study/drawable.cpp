@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "scene/load_signals.hpp"
 #include "words/text.hpp"
 #include "words/units.hpp"
 
@@ -11,7 +13,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// A number of a scene's part that may be drawn, with the least value that it can have.
+/// A number of a scene's part that may be drawn, with the values that a scene file takes.
 template <typename Owner>
 struct DrawnNumber {
   const char* key;
@@ -19,8 +21,10 @@ struct DrawnNumber {
   bool may_be_zero;
   bool may_be_negative;
   double* (*find)(Owner&);  ///< null where the owner does not have it
+  double most = std::numeric_limits<double>::infinity();
 };
 
+constexpr double most_dropouts = 1.0 - 0x1p-53;  // a signal of which every sample is lost is none
 constexpr bool at_zero = true, not_at_zero = false, signed_too = true, positive = false;
 
 constexpr std::array object_numbers{
@@ -57,7 +61,7 @@ constexpr std::array partner_numbers{
 
 constexpr std::array state_numbers{
     DrawnNumber<StateNoise>{"delay", dimension::time, at_zero, positive,
-                            [](StateNoise& s) { return &s.delay; }},
+                            [](StateNoise& s) { return &s.delay; }, longest_state_delay},
     DrawnNumber<StateNoise>{"position", dimension::length, at_zero, positive,
                             [](StateNoise& s) { return s.wheels_only ? nullptr : &s.position; }},
     DrawnNumber<StateNoise>{"yaw", dimension::angle, at_zero, positive,
@@ -82,11 +86,11 @@ double* noise_of(SceneSignal& signal) {
 
 constexpr std::array signal_numbers{
     DrawnNumber<SceneSignal>{"delay", dimension::time, at_zero, positive,
-                             [](SceneSignal& s) { return &s.delay; }},
+                             [](SceneSignal& s) { return &s.delay; }, longest_delay},
     DrawnNumber<SceneSignal>{"period", dimension::time, at_zero, positive,
                              [](SceneSignal& s) { return &s.period; }},
     DrawnNumber<SceneSignal>{"dropouts", dimension::none, at_zero, positive,
-                             [](SceneSignal& s) { return &s.dropouts; }},
+                             [](SceneSignal& s) { return &s.dropouts; }, most_dropouts},
     DrawnNumber<SceneSignal>{
         "angle_noise", dimension::angle, at_zero, positive,
         [](SceneSignal& s) { return s.kind == SceneSignalKind::pose ? &s.angle_noise : nullptr; }},
@@ -117,18 +121,25 @@ const RobotNumber* robot_number(const std::string& key) {
   return number_named(robot_numbers, key);
 }
 
-/// As it stands in the scene: `Use` is called with the number and its place.
+/// What a drawn number measures, and the values that it can have.
+struct NumberRange {
+  Dimension dimension;
+  bool may_be_zero, may_be_negative;
+  double most = std::numeric_limits<double>::infinity();
+};
+
+/// As it stands in the scene: `Use` is called with the number's range and its place.
 template <typename Use>
 bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
   const auto visit = [&](const auto& numbers, auto& owner) {
     const auto* number = number_named(numbers, d.key);
     double* place = number != nullptr ? number->find(owner) : nullptr;
     if (place == nullptr) return false;
-    use(number->dimension, number->may_be_zero, number->may_be_negative, *place);
+    use(NumberRange{number->dimension, number->may_be_zero, number->may_be_negative, number->most}, *place);
     return true;
   };
   if (d.part == DrawnPart::floor) {
-    use(dimension::none, not_at_zero, positive, scene.floor_friction);
+    use(NumberRange{dimension::none, not_at_zero, positive}, scene.floor_friction);
     return true;
   }
   if (d.part == DrawnPart::state) return visit(state_numbers, scene.state);
@@ -138,7 +149,8 @@ bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
       if (d.key != "noise") return visit(signal_numbers, signal);
       double* noise = noise_of(signal);
       if (noise == nullptr) return false;
-      use(measures_force(signal) ? dimension::force : dimension::length, at_zero, positive, *noise);
+      use(NumberRange{measures_force(signal) ? dimension::force : dimension::length, at_zero, positive},
+          *noise);
       return true;
     }
     return false;
@@ -231,7 +243,7 @@ std::optional<Drawable> find_drawable(const std::string& name, const ScenarioFil
   } else if (program.scene) {
     Scene scene = *program.scene;
     drawable->can_be_factor = true;
-    visit_number(*drawable, scene, [&](const Dimension& d, bool, bool, double) { measures = d; });
+    visit_number(*drawable, scene, [&](const NumberRange& range, double) { measures = range.dimension; });
   }
   if (!measures) return std::nullopt;
   drawable->dimension = *measures;
@@ -286,11 +298,15 @@ std::optional<std::string> put_after(const Draw& draw, double value, Program& pr
   if (drawable->part < DrawnPart::robot || !program.scene) return std::nullopt;
   if (drawable->part == DrawnPart::robot) return put_into_robot(drawable->key, value, program, deviation);
   std::optional<std::string> why = "this scene has no " + draw.name;
-  const auto put = [&](const Dimension&, bool may_be_zero, bool may_be_negative, double& place) {
+  const auto put = [&](const NumberRange& range, double& place) {
     const double number = draw.is_factor ? value * place : value;
+    const std::string unit = draw.unit.empty() ? "" : " " + draw.unit;
     why.reset();
-    if (!may_be_negative && (number < 0.0 || (number == 0.0 && !may_be_zero)))
-      why = draw.name + " cannot be " + format_number(number) + (draw.unit.empty() ? "" : " " + draw.unit);
+    if (!range.may_be_negative && (number < 0.0 || (number == 0.0 && !range.may_be_zero)))
+      why = draw.name + " cannot be " + format_number(number) + unit;
+    if (number > range.most)
+      why = draw.name + " cannot be " + format_number(number) + unit + ", " + format_number(range.most) +
+            unit + " at most";
     if (!why) place = number;
   };
   visit_number(*drawable, *program.scene, put);

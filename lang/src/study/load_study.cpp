@@ -261,7 +261,9 @@ class StudyReader {
     const auto run = with_draws(study_, cell, read, of_study, of_task);
     if (!run) {
       const auto d = of_study.first_error();
-      diagnostics_.add(wording::bad_draw(cause, d ? d->message : "this cannot be drawn", d ? d->help : ""));
+      // In the middle of all draws nobody but the message knows which of them it was.
+      const Span& place = d && d->span.exists() ? d->span : cause;
+      diagnostics_.add(wording::bad_draw(place, d ? d->message : "this cannot be drawn", d ? d->help : ""));
       return false;
     }
     if (!run->program) complain_of_refusal({cause}, cell.cell().name, of_task);
