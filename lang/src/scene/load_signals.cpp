@@ -81,11 +81,6 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
   }
 }
 
-/// The longest delay of a signal, and of a pose that corrects the wheels, which remember no more.
-constexpr double longest_delay = 1.9;          // [s]
-constexpr double longest_fix_delay = 0.4;      // [s]
-constexpr double longest_state_delay = 15e-3;  // [s] twenty ticks without a sample are a fault
-
 /// What the travel measures.
 void describe_travel(const Word& object, TravelOf travel, SceneSignal& signal, Diagnostics& diagnostics) {
   if (travel == TravelOf::nothing) diagnostics.add(wording::nothing_travels(object.span, object.text));

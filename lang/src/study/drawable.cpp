@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "scene/load_signals.hpp"
 #include "words/text.hpp"
 #include "words/units.hpp"
 #include "zwang/lang/fault_word.hpp"
@@ -13,7 +15,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// A number of a scene's part that may be drawn, with the least value that it can have.
+/// A number of a scene's part that may be drawn, with the values that a scene file takes.
 template <typename Owner>
 struct DrawnNumber {
   const char* key;
@@ -21,8 +23,10 @@ struct DrawnNumber {
   bool may_be_zero;
   bool may_be_negative;
   double* (*find)(Owner&);  ///< null where the owner does not have it
+  double most = std::numeric_limits<double>::infinity();
 };
 
+constexpr double most_dropouts = 1.0 - 0x1p-53;  // a signal of which every sample is lost is none
 constexpr bool at_zero = true, not_at_zero = false, signed_too = true, positive = false;
 
 constexpr std::array object_numbers{
@@ -59,7 +63,7 @@ constexpr std::array partner_numbers{
 
 constexpr std::array state_numbers{
     DrawnNumber<StateNoise>{"delay", dimension::time, at_zero, positive,
-                            [](StateNoise& s) { return &s.delay; }},
+                            [](StateNoise& s) { return &s.delay; }, longest_state_delay},
     DrawnNumber<StateNoise>{"position", dimension::length, at_zero, positive,
                             [](StateNoise& s) { return s.wheels_only ? nullptr : &s.position; }},
     DrawnNumber<StateNoise>{"yaw", dimension::angle, at_zero, positive,
@@ -84,11 +88,11 @@ double* noise_of(SceneSignal& signal) {
 
 constexpr std::array signal_numbers{
     DrawnNumber<SceneSignal>{"delay", dimension::time, at_zero, positive,
-                             [](SceneSignal& s) { return &s.delay; }},
+                             [](SceneSignal& s) { return &s.delay; }, longest_delay},
     DrawnNumber<SceneSignal>{"period", dimension::time, at_zero, positive,
                              [](SceneSignal& s) { return &s.period; }},
     DrawnNumber<SceneSignal>{"dropouts", dimension::none, at_zero, positive,
-                             [](SceneSignal& s) { return &s.dropouts; }},
+                             [](SceneSignal& s) { return &s.dropouts; }, most_dropouts},
     DrawnNumber<SceneSignal>{
         "angle_noise", dimension::angle, at_zero, positive,
         [](SceneSignal& s) { return s.kind == SceneSignalKind::pose ? &s.angle_noise : nullptr; }},
@@ -119,18 +123,25 @@ const RobotNumber* robot_number(const std::string& key) {
   return number_named(robot_numbers, key);
 }
 
-/// As it stands in the scene: `Use` is called with the number and its place.
+/// What a drawn number measures, and the values that it can have.
+struct NumberRange {
+  Dimension dimension;
+  bool may_be_zero, may_be_negative;
+  double most = std::numeric_limits<double>::infinity();
+};
+
+/// As it stands in the scene: `Use` is called with the number's range and its place.
 template <typename Use>
 bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
   const auto visit = [&](const auto& numbers, auto& owner) {
     const auto* number = number_named(numbers, d.key);
     double* place = number != nullptr ? number->find(owner) : nullptr;
     if (place == nullptr) return false;
-    use(number->dimension, number->may_be_zero, number->may_be_negative, *place);
+    use(NumberRange{number->dimension, number->may_be_zero, number->may_be_negative, number->most}, *place);
     return true;
   };
   if (d.part == DrawnPart::floor) {
-    use(dimension::none, not_at_zero, positive, scene.floor_friction);
+    use(NumberRange{dimension::none, not_at_zero, positive}, scene.floor_friction);
     return true;
   }
   if (d.part == DrawnPart::state) return visit(state_numbers, scene.state);
@@ -140,7 +151,8 @@ bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
       if (d.key != "noise") return visit(signal_numbers, signal);
       double* noise = noise_of(signal);
       if (noise == nullptr) return false;
-      use(measures_force(signal) ? dimension::force : dimension::length, at_zero, positive, *noise);
+      use(NumberRange{measures_force(signal) ? dimension::force : dimension::length, at_zero, positive},
+          *noise);
       return true;
     }
     return false;
@@ -254,7 +266,7 @@ std::optional<Drawable> find_drawable(const std::string& name, const ScenarioFil
   } else if (program.scene) {
     Scene scene = *program.scene;
     drawable->can_be_factor = true;
-    visit_number(*drawable, scene, [&](const Dimension& d, bool, bool, double) { measures = d; });
+    visit_number(*drawable, scene, [&](const NumberRange& range, double) { measures = range.dimension; });
   }
   if (!measures) return std::nullopt;
   drawable->dimension = *measures;
@@ -311,12 +323,15 @@ std::optional<BadValue> put_after(const Draw& draw, double value, Program& progr
   const std::string name = "`" + draw.name + "`";
   std::optional<BadValue> bad =
       BadValue{"the scene of this cell has no " + name, "draw what each scene of the study has"};
-  const auto put = [&](const Dimension&, bool may_be_zero, bool may_be_negative, double& place) {
+  const auto put = [&](const NumberRange& range, double& place) {
     const double number = draw.is_factor ? value * place : value;
     bad.reset();
-    if (!may_be_negative && (number < 0.0 || (number == 0.0 && !may_be_zero)))
+    if (!range.may_be_negative && (number < 0.0 || (number == 0.0 && !range.may_be_zero)))
       bad = BadValue{name + " cannot be " + wording::figure(value, draw.unit),
-                     may_be_zero ? "let the range begin at 0" : "let the range begin above 0"};
+                     range.may_be_zero ? "let the range begin at 0" : "let the range begin above 0"};
+    if (number > range.most)
+      bad = BadValue{name + " cannot be " + wording::figure(value, draw.unit),
+                     "let the range end below " + wording::figure(range.most, draw.unit)};
     if (!bad) place = number;
   };
   visit_number(*drawable, *program.scene, put);

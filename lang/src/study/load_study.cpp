@@ -263,8 +263,9 @@ class StudyReader {
     if (!run) {
       // A value that cannot be has its place: the draw. An error of the cell itself is told where it began.
       const auto d = of_study.first_error();
-      diagnostics_.add(wording::bad_draw(d && d->code == "E931" ? d->span : cause,
-                                         d ? d->message : "this cannot be drawn", d ? d->help : ""));
+      const bool has_place = d && d->code == "E931" && d->span.exists();
+      diagnostics_.add(wording::bad_draw(has_place ? d->span : cause, d ? d->message : "this cannot be drawn",
+                                         d ? d->help : ""));
       return false;
     }
     if (!run->program) complain_of_refusal({cause}, cell.cell().name, of_task);

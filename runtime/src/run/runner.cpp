@@ -5,8 +5,30 @@
 
 namespace zwang::runtime {
 
-Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
-    : parts_(std::make_unique<Parts>(led_program(program), settings)) {}
+namespace {
+
+/// Two ticks where the robot starts: the first one switches into the task, the second one blends.
+void take_two_ticks(Runner& runner, const lang::Program& program) noexcept {
+  Sensed sensed(program);
+  sensed.state = lang::start_state(program.robot);
+  sensed.base_measured = true;
+  for (int tick = 0; tick < 2; ++tick) {
+    runner.step(sensed);
+    sensed.time += runner.period();
+  }
+}
+
+}  // namespace
+
+/// A tick that no tick came before waits for its code and its memory, ten times as long as it computes. So
+/// parts that nobody keeps take the first ticks, and those that are kept come to lie where they lay.
+Runner::Runner(const lang::Program& program, const RunnerSettings& settings) {
+  const lang::Program led = led_program(program);
+  parts_ = std::make_unique<Parts>(led, settings);
+  take_two_ticks(*this, program);
+  parts_.reset();
+  parts_ = std::make_unique<Parts>(led, settings);
+}
 Runner::~Runner() = default;
 Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;

@@ -140,6 +140,13 @@ double RegionFence::weakest_braking(const Point& box) const noexcept {
   return std::max(a, least);
 }
 
+/// A disc of the radius min(b_x, b_y) is in the box, so every direction has that. Rounding may take a part of
+/// 1e-15 of it.
+double RegionFence::least_alone(const Point& box) noexcept {
+  constexpr double rounding = 1.0 - 1e-12;
+  return rounding * box.minCoeff();
+}
+
 double RegionFence::edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Point& box,
                                  double turning) noexcept {
   const double time_to_stop = fastest_ / (solver::braking_share * weakest_braking(box));
@@ -203,36 +210,42 @@ int RegionFence::nearest_side(const std::vector<Side>& sides, const Point& p) no
   return nearest;
 }
 
-inline RegionFence::Approach RegionFence::look(const Pair& pair) const noexcept {
-  const auto first = static_cast<std::size_t>(pair.first);
-  const auto second = static_cast<std::size_t>(pair.second);
-  switch (pair.kind) {
-    case PairKind::corner_edge: {
-      const Moving& c = corner_now_[first];
-      const Side& e = edges_[second];
-      return {e.left.dot(c.place - e.begin) - margin_, -e.left.dot(c.velocity)};
-    }
-    case PairKind::corner_vertex: {
-      const Moving& c = corner_now_[first];
-      const Point offset = c.place - polygon_[static_cast<std::size_t>(reflex_[second])];
-      const double d = offset.norm();
-      if (d > no_direction) return {d - margin_, -(offset.dot(c.velocity) / d)};
-      break;
-    }
-    case PairKind::vertex_side: {
-      const Moving& v = vertex_now_[first];
-      const Side& s = sides_[second];
-      return {-s.left.dot(v.place - s.begin) - margin_, s.left.dot(v.velocity)};
-    }
-    case PairKind::corner_circle: {
-      const Moving& c = corner_now_[first];
-      const Point offset = c.place - centre();
-      const double d = offset.norm();
-      if (d > no_direction) return {region_.radius - margin_ - d, offset.dot(c.velocity) / d};
-      break;
-    }
-  }
+inline RegionFence::Approach RegionFence::of_edge(const Moving& corner, const Side& edge) const noexcept {
+  return {edge.left.dot(corner.place - edge.begin) - margin_, -edge.left.dot(corner.velocity)};
+}
+
+inline RegionFence::Approach RegionFence::of_vertex(const Moving& corner,
+                                                    const Point& vertex) const noexcept {
+  const Point offset = corner.place - vertex;
+  const double d = offset.norm();
+  if (d > no_direction) return {d - margin_, -(offset.dot(corner.velocity) / d)};
   return {far, 0.0};
+}
+
+inline RegionFence::Approach RegionFence::of_side(const Moving& vertex, const Side& side) const noexcept {
+  return {-side.left.dot(vertex.place - side.begin) - margin_, side.left.dot(vertex.velocity)};
+}
+
+RegionFence::Approach RegionFence::of_circle(const Moving& corner) const noexcept {
+  const Point offset = corner.place - centre();
+  const double d = offset.norm();
+  if (d > no_direction) return {region_.radius - margin_ - d, offset.dot(corner.velocity) / d};
+  return {far, 0.0};
+}
+
+/// In the order of `pairs_`.
+void RegionFence::look() noexcept {
+  Approach* next = approaches_.data();
+  for (const Moving& corner : corner_now_) {
+    if (region_.radius > 0.0) *next++ = of_circle(corner);
+    for (const Side& edge : edges_) *next++ = of_edge(corner, edge);
+    for (const int vertex : reflex_) *next++ = of_vertex(corner, polygon_[static_cast<std::size_t>(vertex)]);
+  }
+  for (const Moving& vertex : vertex_now_) {
+    for (const Side& side : sides_) *next++ = of_side(vertex, side);
+  }
+  fastest_ = 0.0;
+  for (const Approach& approach : approaches_) fastest_ = std::max(fastest_, approach.speed);
 }
 
 void RegionFence::update(const solver::FrameMotion& move, const solver::FrameMotion& in,
@@ -254,11 +267,7 @@ void RegionFence::update(const solver::FrameMotion& move, const solver::FrameMot
       vertex_now_[i] = {flat(place), place.z(), flat(in_seen.linear + in_seen.angular.cross(arm))};
     }
   }
-  fastest_ = 0.0;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    approaches_[i] = look(pairs_[i]);
-    fastest_ = std::max(fastest_, approaches_[i].speed);
-  }
+  look();
 }
 
 const RegionFence::Moving& RegionFence::located_corner(std::size_t corner) noexcept {

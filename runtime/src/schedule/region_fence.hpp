@@ -49,6 +49,11 @@ class ZWANG_EXPORT RegionFence {
                  double turning) noexcept;
   /// No pair brakes with less, however the base is turned. [m/s^2]
   double weakest_braking(const Eigen::Vector2d& box) const noexcept;
+  /// A vertex shares with nobody: no pair of one brakes with less than this. [m/s^2]
+  static double least_alone(const Eigen::Vector2d& box) noexcept;
+  bool is_braked_for_alone(std::size_t pair) const noexcept {
+    return pairs_[pair].kind == PairKind::corner_vertex || pairs_[pair].kind == PairKind::vertex_side;
+  }
   /// The direction in the world in which what moves would brake.
   solver::Vector3 normal(std::size_t pair) const noexcept;
   /// "edge2", "vertex3", "circle": the feature of the region, counted from 1 as they are written. Allocates.
@@ -87,7 +92,11 @@ class ZWANG_EXPORT RegionFence {
                        const Point& box) const noexcept;
   static std::vector<Side> sides_of(const std::vector<Point>& polygon);
   static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
-  Approach look(const Pair& pair) const noexcept;
+  Approach of_edge(const Moving& corner, const Side& edge) const noexcept;
+  Approach of_vertex(const Moving& corner, const Point& vertex) const noexcept;
+  Approach of_side(const Moving& vertex, const Side& side) const noexcept;
+  Approach of_circle(const Moving& corner) const noexcept;
+  void look() noexcept;
   const Moving& located_corner(std::size_t corner) noexcept;
   const Moving& located_vertex(std::size_t vertex) noexcept;
   Point centre() const noexcept { return {region_.centre[0], region_.centre[1]}; }

@@ -205,16 +205,21 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
     const double allowed = solver::braking_speed(approach.left, a_brk, horizon);
     return !(allowed < approach.speed + near_speed);
   };
-  // From there even the fastest could brake in time, with the weakest brake: most pairs are done by that.
   const Eigen::Vector2d box = braking.head<2>();
-  const double weakest_brake = fence.weakest_braking(box);
   const solver::Matrix3 to_base = state->base_pose.rotation.transpose();
   const double turning = state->base_twist.angular.z();
-  const double out_of_reach = solver::braking_distance(fence.fastest() + near_speed, weakest_brake, horizon);
+  // From there even the fastest could brake in time, with the weakest brake: most pairs are done by that.
+  const auto out_of_reach = [&](double brake) {
+    return solver::braking_distance(fence.fastest() + near_speed, brake, horizon);
+  };
+  const double edge_brake = fence.weakest_braking(box), vertex_brake = RegionFence::least_alone(box);
+  const double edge_reach = out_of_reach(edge_brake), vertex_reach = out_of_reach(vertex_brake);
   InReach nearest;
   for (std::size_t i = 0; i < fence.pair_count(); ++i) {
     const RegionFence::Approach& approach = fence.approach(i);
-    if (approach.left > out_of_reach || is_far(approach, weakest_brake) || !fence.faces(i)) continue;
+    const bool is_alone = fence.is_braked_for_alone(i);
+    if (approach.left > (is_alone ? vertex_reach : edge_reach)) continue;
+    if (!fence.faces(i) || is_far(approach, is_alone ? vertex_brake : edge_brake)) continue;
     const double a_brk = std::max(fence.braking(i, to_base, box, turning), least_braking);
     if (is_far(approach, a_brk)) continue;
     Wanted& w = wanted[a.wanted + i];
