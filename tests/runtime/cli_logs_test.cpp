@@ -159,7 +159,9 @@ TEST_F(Logs, OnAFullDiskACsvIsNotLeftHalf) {
 // The records of a run whose samples stay away repeat the time of the last one.
 TEST_F(Logs, InfoTellsEventsAtTheTimesOfTheReport) {
   write("scene.yaml", "zwang_scene: 1\nfaults: [{at: 0.5 s, samples: lost}]\n");
-  const Result stopped = run("a", {"--scene", "scene.yaml"});
+  write("task.yaml", standing);
+  const Result stopped = zwang({"run", "task.yaml", "--robot", shipped + "robots/mecanum_base.yaml",
+                                "--scene", "scene.yaml", "--log", "a", "--format", "json"});
   EXPECT_EQ(stopped.code, 1) << stopped.err;
   const json report = json::parse(stopped.out, nullptr, false), log = told({"info", "a"});
   ASSERT_GT(report["events"].size(), 1u);

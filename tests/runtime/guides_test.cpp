@@ -96,7 +96,7 @@ double opened_beside(const lang::SceneObject& other) {
   MujocoPlant plant(robot, scene);
   BodyPush push{.robot = -1, .body = 0};
   push.pose.position = {0.0, -0.5, 0.5};
-  push.wrench.linear() = solver::Vector3(20.0, 0.0, 0.0);
+  push.wrench.linear = solver::Vector3(20.0, 0.0, 0.0);
   plant.set_more_pushes(std::vector{push});
   for (int i = 0; i < 5000; ++i) EXPECT_EQ(plant.apply(Eigen::VectorXd(0)), PlantStatus::ok);
   return plant.truth().objects.front().travel;

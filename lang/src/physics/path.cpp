@@ -1,6 +1,6 @@
 // W615: a fillet of radius r at v needs v^2/r towards its centre. Where `plane` allows less, the base leaves
-// the path, or slows down. A push of M v^2/r takes it around, M the most that the base weighs across its way:
-// on driven casters the swivels count, which turn into the fillet. Where `plane` allows less force, likewise.
+// the path, or slows down. A push of M v^2/r takes it around. M is the most that the base weighs across its
+// way: on driven casters the swivels count that turn into the fillet. A force of `plane` bounds that push.
 //
 // N622: on a base of two freedoms x and y of a point ahead of the axle take both. The heading r against a
 // straight path is left over. With the point l ahead, dr/dx = -sin(r)/l, so r decays with exp(-x/l).
