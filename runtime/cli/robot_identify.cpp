@@ -129,7 +129,7 @@ ordered_json as_json(const runtime::Identification& found) {
 
 std::string as_text(const runtime::Identification& found) {
   std::string text =
-      "from " + std::to_string(found.windows) + " windows of 0.1 s, each with its standard error\n";
+      "from " + std::to_string(found.windows) + " windows of 0.2 s, each with its standard error\n";
   for (const runtime::IdentifiedMotor& motor : found.motors) {
     text += "  " + motor.joint + ": coulomb " + figure(motor.coulomb, "N m") + ", viscous " +
             figure(motor.viscous, "N m s/rad") + ",\n    gives " +

@@ -88,6 +88,47 @@ TEST_F(DraftOfCasters, small_wheels_that_do_not_steer_carry_the_base) {
   EXPECT_NE(drawn.text.find("lead: nose"), std::string::npos) << "two plain wheels on one axle";
 }
 
+// Some files draw a mark where a tyre is. Left and right are alike: the larger one tells both radii, and the
+// small wheels behind are casters without swivels.
+TEST_F(DraftOfCasters, a_wheel_whose_shape_is_a_mark_is_as_its_counterpart) {
+  const RobotDraft drawn =
+      draft(beside_wheel("fl", ".13 .13 -.1275", ".01") + beside_wheel("fr", ".13 -.13 -.1275", ".05") +
+            beside_wheel("rr", "-.12 -.125 -.1505", ".03") + beside_wheel("rl", "-.12 .125 -.1505", ".01"));
+  EXPECT_EQ(joints(drawn.wheels), (JointNames{"fl_joint", "fr_joint"})) << drawn.text;
+  for (const DraftWheel& wheel : drawn.wheels) EXPECT_NEAR(wheel.radius.value_or(0.0), 0.05, 1e-9);
+  std::vector<std::string> supports = drawn.supports;
+  std::sort(supports.begin(), supports.end());
+  EXPECT_EQ(supports, (JointNames{"rl", "rr"})) << drawn.text;
+}
+
+// Meshes that nobody calls wheels: a pair that hangs 23 mm higher has larger wheels, and no arm's motors.
+// Each radius is asked for.
+TEST_F(DraftOfCasters, pairs_of_two_sizes_are_wheels_each_with_its_radius) {
+  const auto part = [](const std::string& name, const std::string& xyz) {
+    return beside_part(name, "base_link", xyz, "continuous", beside_inertial("1", ".003"),
+                       "<axis xyz='0 1 0'/>");
+  };
+  const RobotDraft drawn = draft(part("fl", ".129 .105 -.1275") + part("fr", ".129 -.105 -.1275") +
+                                 part("rr", "-.124 -.125 -.1505") + part("rl", "-.124 .125 -.1505"));
+  EXPECT_EQ(joints(drawn.wheels), (JointNames{"fl_joint", "fr_joint", "rr_joint", "rl_joint"})) << drawn.text;
+  for (const char* name : {"fl", "fr", "rr", "rl"})
+    EXPECT_NE(drawn.text.find("{joint: " + std::string(name) + "_joint, radius: FILL_IN}"), std::string::npos)
+        << drawn.text;
+}
+
+// A simulator's own joint closes the loop of a brace: what it ties has no motor of its own.
+TEST_F(DraftOfCasters, a_linkage_that_a_simulator_closes_does_not_move) {
+  const std::string brace =
+      beside_part("brace", "base_link", "0 0 .07", "revolute", beside_inertial(".4", ".001"),
+                  "<axis xyz='0 0 1'/><limit effort='100' lower='-.8' upper='.8' velocity='1'/>");
+  const std::string tie =
+      "<gazebo><joint name='tie' type='ball'><parent>brace</parent><child>rod</child></joint></gazebo>";
+  EXPECT_NE(draft(beside_pair + brace).text.find("  brace_joint: {}"), std::string::npos);
+  const std::string text = draft(beside_pair + brace + tie).text;
+  EXPECT_NE(text.find("\nfixed: [brace_joint]"), std::string::npos) << text;
+  EXPECT_EQ(text.find("brace_joint: {"), std::string::npos) << text;
+}
+
 // Wheels of 80 mm beside some of 70 mm are worn tyres of one kind.
 TEST_F(DraftOfCasters, wheels_of_nearly_one_size_drive) {
   EXPECT_EQ(draft(beside_pair + beside_wheel("front_left_wheel", ".2 .2 -.01", ".07") +

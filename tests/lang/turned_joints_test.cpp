@@ -116,6 +116,77 @@ TEST_F(TurnedJoints, beside_wheels_that_turn_a_held_one_is_only_named) {
   EXPECT_NE(text.find("`rear_wheel_joint` is not here"), std::string::npos) << text;
 }
 
+// Vendors leave a template's 1 0 0 at joints that they never turn. A swivel whose axis is its wheel's axle
+// steers nothing. Held and free, the base has four steered wheels, and each rolls ahead.
+TEST_F(TurnedJoints, a_swivel_with_the_axle_of_its_wheel_has_no_axis) {
+  const std::string ball = "<collision><geometry><sphere radius='.05'/></geometry></collision>";
+  for (const char* type : {"fixed", "continuous"}) {
+    std::string parts;
+    for (const auto& [name, xyz] : {std::pair{"fl", ".24 .23 .12"},
+                                    {"fr", ".24 -.23 .12"},
+                                    {"bl", "-.24 .23 .12"},
+                                    {"br", "-.24 -.23 .12"}}) {
+      const std::string caster = "caster_" + std::string(name);
+      parts += held_part(caster, "chassis", xyz, type, held_disc, "<axis xyz='1 0 0'/>") +
+               held_part("wheel_" + std::string(name), caster, "0 0 -.07", type, held_disc + ball,
+                         "<axis xyz='1 0 0'/>");
+    }
+    const RobotDraft drawn = draft("<robot name='r'>" + held_chassis + parts + "</robot>");
+    ASSERT_EQ(drawn.wheels.size(), 4U) << drawn.text;
+    for (const DraftWheel& wheel : drawn.wheels) {
+      EXPECT_EQ(wheel.swivel, "caster_" + wheel.link.substr(6) + "_joint") << drawn.text;
+      EXPECT_NEAR(std::abs(wheel.axle.y()), 1.0, 1e-9) << drawn.text;
+    }
+    EXPECT_EQ(drawn.heading, 0.0) << drawn.text;
+  }
+}
+
+// Nobody has seen a fixed joint turn: where all wheels would roll sideways, the template's axis is not meant.
+TEST_F(TurnedJoints, held_wheels_that_all_roll_sideways_have_no_axis) {
+  const RobotDraft held = draft(held_wheels("fixed", "<axis xyz='1 0 0'/>", ""));
+  ASSERT_EQ(held.wheels.size(), 2U) << held.text;
+  for (const DraftWheel& wheel : held.wheels) EXPECT_NEAR(wheel.axle.y(), 1.0, 1e-9) << held.text;
+  // A wheel that turns is as the file says: such a base drives along y.
+  for (const DraftWheel& wheel : draft(held_wheels("continuous", "<axis xyz='1 0 0'/>", "")).wheels)
+    EXPECT_NEAR(std::abs(wheel.axle.x()), 1.0, 1e-9);
+}
+
+// A car that is drawn to be looked at: only the front wheels turn, below hinges that are fixed.
+TEST_F(TurnedJoints, a_held_axle_beside_wheels_that_turn_makes_a_car) {
+  std::string parts;
+  for (const auto& [name, y] : {std::pair{"left", ".12"}, {"right", "-.12"}}) {
+    const std::string side = name, at = y;
+    parts += held_part("back_" + side + "_wheel", "chassis", "0 " + at + " .08", "fixed",
+                       held_disc + held_tyre, "") +
+             held_part("front_" + side + "_hinge", "chassis", ".33 " + at + " .08", "fixed", "", "") +
+             held_part("front_" + side + "_wheel", "front_" + side + "_hinge", "0 0 0", "continuous",
+                       held_disc + held_tyre, "");
+  }
+  const RobotDraft car = draft("<robot name='r'>" + held_chassis + parts + "</robot>");
+  EXPECT_EQ(car.drive, "as a car: 2 of 4 wheels steer") << car.text;
+  for (const DraftWheel& wheel : car.wheels) {
+    const bool is_front = wheel.joint.starts_with("front");
+    EXPECT_EQ(wheel.swivel,
+              is_front ? wheel.joint.substr(0, wheel.joint.find("_wheel")) + "_hinge_joint" : "");
+    EXPECT_NEAR(std::abs(wheel.axle.y()), 1.0, 1e-9);
+    EXPECT_NEAR(wheel.radius.value_or(0.0), 0.08, 1e-9);
+  }
+  const std::string filled = std::regex_replace(car.text, std::regex("effort: FILL_IN"), "effort: 2 N m");
+  const auto robot = this->robot(std::regex_replace(filled, std::regex("mass: FILL_IN"), "mass: 0.1 kg"));
+  ASSERT_TRUE(robot) << test::rendered(diagnostics_) << car.text;
+  EXPECT_EQ(robot->model.wheels().size(), 4U);
+}
+
+// `<insert_block>` without its prefix: a newer xacro leaves it, and each joint loses its place.
+TEST_F(TurnedJoints, an_old_macro_that_was_left_is_told) {
+  const std::string urdf =
+      std::regex_replace(held_wheels("continuous", "<axis xyz='0 1 0'/>"),
+                         std::regex("<origin xyz='0 .2 0'/>"), "<insert_block name='origin'/>");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(draft_robot(folder_.write("r.urdf", urdf), "r.urdf", diagnostics));
+  EXPECT_EQ(test::count(diagnostics, "E855"), 1) << test::rendered(diagnostics);
+}
+
 TEST_F(TurnedJoints, an_update_keeps_them_turning) {
   const std::string text = draft(held_wheels("fixed", "<axis xyz='0 1 0'/>")).text;
   const std::filesystem::path file = folder_.write("r.yaml", text);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "shipped_program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -25,9 +28,13 @@ lang::Program rough(const std::string& robot) {
   return program;
 }
 
-/// Drives the task on its plant, and lets `identification` see what a log holds. The motors give
-/// `factor` of what they are told.
-void drive(lang::Program program, DriveIdentification& identification, double load, double factor) {
+constexpr double encoder_noise = 0.1;   // [rad/s] of a rate, one sample: encoders that are differentiated
+constexpr double encoder_count = 1e-3;  // [rad]
+
+/// Drives the task on its plant, and lets `identification` see what a log holds, and `noisy` what one of
+/// such encoders holds. The motors give `factor` of what they are told.
+void drive(lang::Program program, DriveIdentification& identification, double load, double factor,
+           DriveIdentification* noisy = nullptr) {
   Runner runner(program);
   if (load > 0.0) {
     lang::Fault payload;
@@ -37,11 +44,17 @@ void drive(lang::Program program, DriveIdentification& identification, double lo
   }
   ScenePlant plant(program);
   identification.begin_run(load);
+  if (noisy != nullptr) noisy->begin_run(load);
+  std::mt19937 dice(7);
+  std::normal_distribution<double> error(0.0, encoder_noise);
   Sensed sensed(program);
   while (!runner.finished()) {
     ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
     const Eigen::VectorXd tau = runner.step(sensed);
     identification.add(sensed.time, sensed.state.q, sensed.state.qd, tau / factor);
+    if (noisy != nullptr)
+      noisy->add(sensed.time, encoder_count * (sensed.state.q / encoder_count).array().round(),
+                 sensed.state.qd.unaryExpr([&](double rate) { return rate + error(dice); }), tau / factor);
     ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
   }
 }
@@ -68,14 +81,23 @@ TEST(DriveIdentification, FindsFrictionAndTorqueConstantsOfAKnownMass) {
   }
 }
 
+/// Least squares estimate a third of the truth from such encoders, and a negative mass: a column with noise
+/// is estimated too small.
 TEST(DriveIdentification, FindsTheMassTooFromTwoRunsWithAKnownLoad) {
   const lang::Program program = rough("mecanum");
-  DriveIdentification identification(program.robot, std::nullopt);
-  drive(program, identification, 0.0, 1.0);
-  drive(program, identification, 15.0, 1.0);
-  const Identification found = identification.solve();
-  expect_true(found, program.robot, 1.0);
-  EXPECT_NEAR(found.mass.value, program.robot.model.total_mass(), bound * program.robot.model.total_mass());
+  const double mass = program.robot.model.total_mass();
+  DriveIdentification identification(program.robot, std::nullopt), noisy(program.robot, std::nullopt);
+  drive(program, identification, 0.0, 1.0, &noisy);
+  drive(program, identification, 15.0, 1.0, &noisy);
+  for (const Identification& found : {identification.solve(), noisy.solve()}) {
+    expect_true(found, program.robot, 1.0);
+    EXPECT_NEAR(found.mass.value, mass, bound * mass);
+    EXPECT_LT(found.mass.error, bound * mass);
+  }
+  // Noise is told: a standard error that is neither none nor of another size than the estimate is off.
+  const Estimate found = noisy.solve().mass;
+  EXPECT_LT(std::abs(found.value - mass), 4.0 * found.error);
+  EXPECT_GT(found.error, 1e-3 * mass);
 }
 
 /// A wheel that slides without friction, and a torque that turns: nothing but an oracle's numbers.

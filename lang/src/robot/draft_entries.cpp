@@ -53,8 +53,21 @@ std::string in_brackets(const std::vector<std::string>& names) {
   return "[" + text + "]";
 }
 
-std::string steering_rotor(const Urdf& urdf, const std::string& base, const std::string& joint) {
-  const PlacedUrdf placed(urdf, base);
+std::string fixed_entry(const std::vector<std::string>& joints) {
+  if (joints.empty()) return "";
+  return "\n# They do not move here. They carry wheels and do not steer them, as rockers and springs do; "
+         "follow "
+         "another joint\n# by a <mimic>; have no travel, no motor, or next to no inertia behind them; or are "
+         "stiff casters, balls and\n# rollers, a simulator's rails, or parts of a linkage that a simulator's "
+         "own "
+         "<joint> closes.\nfixed: " +
+         in_brackets(joints) + "\n";
+}
+
+std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint) {
+  const auto is_on_it = [&](const DraftWheel& wheel) { return wheel.swivel == joint; };
+  if (std::count_if(found.wheels.begin(), found.wheels.end(), is_on_it) > 1) return "";
+  const PlacedUrdf placed(urdf, found.base);
   const UrdfJoint* swivel = urdf.find_joint(joint);
   const solver::Vector3 axis = placed.axis_of(*swivel), at = placed.place_of(*swivel);
   double inertia = 0.0;

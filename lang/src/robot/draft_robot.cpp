@@ -18,6 +18,7 @@
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::lang {
 
@@ -205,7 +206,12 @@ class Drafter {
   }
 
   /// Open places of all wheels alike stand once, in `each_wheel`.
-  bool share_radius() const { return all(lacks_radius); }
+  /// Wheels whose axles are not level have different radii.
+  bool share_radius() const {
+    const auto height = [](const DraftWheel& a, const DraftWheel& b) { return a.at[2] < b.at[2]; };
+    const auto [low, high] = std::minmax_element(found_.wheels.begin(), found_.wheels.end(), height);
+    return all(lacks_radius) && (found_.wheels.empty() || high->at[2] - low->at[2] < least_wheel_lift);
+  }
   bool share_effort() const { return all(lacks_effort); }
 
   std::string each_wheel(const Filling& filling) const {
@@ -279,7 +285,7 @@ class Drafter {
       }
     }
     for (const std::string& name : found_.steering)
-      line(name, filling.effort, drive_ == DriveKind::car ? steering_rotor(urdf_, found_.base, name) : "");
+      line(name, filling.effort, steering_rotor(urdf_, found_, name));
     for (const std::string& name : found_.others) {
       const UrdfJoint* joint = urdf_.find_joint(name);
       if (contains(held_, name)) continue;
@@ -293,15 +299,8 @@ class Drafter {
 
   std::string text(const Filling& filling) const {
     std::string text = "zwang_robot: 1\nurdf: " + named_as_ + "\n" + frames_.base_and_lead();
-    if (!held_.empty())
-      text +=
-          "\n# They do not move here. They carry wheels and do not steer them, as rockers and springs do; "
-          "follow "
-          "another joint\n# by a <mimic>; have no travel, no motor, or next to no inertia behind them; or "
-          "are stiff "
-          "casters, balls and\n# rollers, or a simulator's rails.\nfixed: " +
-          in_brackets(held_) + "\n";
-    text += turns_entry(turning_) + mimic_entry(urdf_, found_) + axes_entry(axes_) + "\n";
+    text +=
+        fixed_entry(held_) + turns_entry(turning_) + mimic_entry(urdf_, found_) + axes_entry(axes_) + "\n";
     text += each_wheel(filling) + stuck_wheels_note(found_) + "wheels:\n";
     for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, false, filling);
     if (!found_.idle.empty()) text += "  # They have no motor, and roll along.\n";
@@ -387,7 +386,7 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   if (!urdf) return std::nullopt;
   options.axes = find_axes_of(*urdf, given.axes);
   FoundWheels found = find_wheels(*urdf);
-  if (found.wheels.empty()) turn_wheels(path, *urdf, options, found);
+  turn_wheels(path, *urdf, options, found);
   if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
   Drafter drafter(*urdf, options, found, named_as);
   RobotDraft draft = with_assumptions(drafter, *urdf);

@@ -50,13 +50,34 @@ void set_axes(Urdf& urdf, const std::vector<JointAxis>& axes) {
   }
 }
 
-/// It carries a wheel, and is called steering or a caster's.
-bool is_called_swivel(const PlacedUrdf& placed, const UrdfJoint& joint) {
-  const std::vector<const UrdfJoint*> below = placed.carried_by(joint);
-  const bool carries_a_wheel = std::any_of(below.begin(), below.end(), [](const UrdfJoint* other) {
-    return other->joint.type == solver::JointType::continuous;
-  });
-  return carries_a_wheel && (is_called_steering(joint.joint.name) || is_called_caster(joint.joint.name));
+/// The wheels of a swivel by its name: joints that it carries and that turn without end. Else none.
+std::vector<const UrdfJoint*> wheels_of_swivel(const PlacedUrdf& placed, const UrdfJoint& joint) {
+  const solver::JointType type = joint.joint.type;
+  if (type != solver::JointType::continuous && type != solver::JointType::revolute) return {};
+  std::vector<const UrdfJoint*> wheels = placed.carried_by(joint);
+  std::erase_if(wheels,
+                [](const UrdfJoint* other) { return other->joint.type != solver::JointType::continuous; });
+  if (wheels.empty() || !is_called_swivel_of(joint, *wheels.front(), placed)) return {};
+  return wheels;
+}
+
+bool is_level(const PlacedUrdf& placed, const UrdfJoint& joint) {
+  return std::abs(placed.axis_of(joint).z()) <= PlacedUrdf::level;
+}
+
+/// In the frame of the joint: a direction of the base.
+solver::Vector3 in_joint(const PlacedUrdf& placed, const UrdfJoint& joint, const solver::Vector3& direction) {
+  return placed.pose_of(joint.child).rotation.transpose() * direction;
+}
+
+/// 1 0 0 at both, as a template leaves it: a swivel whose axis is its wheel's axle steers nothing.
+bool are_left_alike(const PlacedUrdf& placed, const UrdfJoint& swivel, const UrdfJoint& wheel) {
+  const auto is_left = [](const UrdfJoint& joint) {
+    return joint.has_axis && joint.joint.type == solver::JointType::continuous &&
+           joint.drawn_axis.isApprox(solver::Vector3::UnitX());
+  };
+  return is_left(swivel) && is_left(wheel) && is_level(placed, swivel) &&
+         placed.axis_of(swivel).cross(placed.axis_of(wheel)).norm() < PlacedUrdf::level;
 }
 
 }  // namespace
@@ -88,6 +109,16 @@ void apply_axes(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
   }
 }
 
+bool is_called_swivel_of(const UrdfJoint& joint, const UrdfJoint& wheel, const PlacedUrdf& placed) {
+  constexpr double above = 5e-3;  // [m] beside its wheel: a suspension's arm is longer
+  const auto is_called = [](const std::string& name) {
+    return is_called_steering(name) || is_called_caster(name);
+  };
+  if (is_called(joint.joint.name) || is_called(joint.child)) return true;
+  if (!is_called_hinge(joint.joint.name) && !is_called_hinge(joint.child)) return false;
+  return (placed.place_of(joint) - placed.place_of(wheel)).head<2>().norm() < above;
+}
+
 std::vector<JointAxis> find_axes_of(Urdf& urdf, const std::vector<JointAxis>& given) {
   std::vector<JointAxis> found;
   for (const JointAxis& axis : given) {
@@ -96,16 +127,24 @@ std::vector<JointAxis> find_axes_of(Urdf& urdf, const std::vector<JointAxis>& gi
   }
   set_axes(urdf, found);
   const PlacedUrdf placed(urdf, urdf.root);
+  const auto propose = [&](const UrdfJoint& joint, const solver::Vector3& axis) {
+    const bool is_given = std::any_of(
+        found.begin(), found.end(), [&](const JointAxis& other) { return other.joint == joint.joint.name; });
+    if (!is_given && !(axis.cross(joint.joint.axis).norm() < PlacedUrdf::level))
+      found.push_back({joint.joint.name, tidied(axis)});
+  };
   for (const UrdfJoint& joint : urdf.joints) {
-    if (!lacks_axis(joint)) continue;
-    std::optional<solver::Vector3> axis;
-    if (is_called_swivel(placed, joint)) {
-      axis = placed.pose_of(joint.child).rotation.transpose() * solver::Vector3::UnitZ();
-    } else if (placed.carried_by(joint).empty()) {
-      axis = cylinder_axis_of(placed, joint);
+    const std::vector<const UrdfJoint*> wheels = wheels_of_swivel(placed, joint);
+    const bool is_left = !wheels.empty() && are_left_alike(placed, joint, *wheels.front());
+    const bool is_held_level = joint.is_turned && is_level(placed, joint);
+    if (!wheels.empty() && (!joint.has_axis || is_left || is_held_level))
+      propose(joint, in_joint(placed, joint, solver::Vector3::UnitZ()));
+    for (const UrdfJoint* wheel : wheels) {
+      const solver::Vector3 sideways = in_joint(placed, *wheel, solver::Vector3::UnitY());
+      if (is_left) propose(*wheel, cylinder_axis_of(placed, *wheel).value_or(sideways));
     }
-    if (!axis || axis->cross(joint.joint.axis).norm() < PlacedUrdf::level) continue;
-    found.push_back({joint.joint.name, tidied(*axis)});
+    if (!lacks_axis(joint) || !placed.carried_by(joint).empty()) continue;
+    if (const auto axis = cylinder_axis_of(placed, joint)) propose(joint, *axis);
   }
   set_axes(urdf, found);
   return found;
@@ -124,9 +163,11 @@ std::vector<std::string> wheels_without_axis(const Urdf& urdf) {
 std::string axes_entry(const std::vector<JointAxis>& axes) {
   if (axes.empty()) return "";
   std::string text =
-      "\n# The URDF has no <axis> for these joints, and that means 1 0 0. Proposed: of a wheel the axis of "
-      "its "
-      "cylinder, or\n# across the base; of a swivel upwards; x, y, z in the frame of the joint.\naxes:\n";
+      "\n# The URDF has no <axis> for these joints, which means 1 0 0, or one that tells nothing. Proposed: "
+      "of a "
+      "wheel the\n# axis of its cylinder, or across the base; of a swivel upwards; x, y, z in the frame of "
+      "the "
+      "joint.\naxes:\n";
   for (const JointAxis& axis : axes) {
     char numbers[80];
     std::snprintf(numbers, sizeof numbers, "[%.6g, %.6g, %.6g]", axis.axis.x() + 0.0, axis.axis.y() + 0.0,

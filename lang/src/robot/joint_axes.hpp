@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/placed_urdf.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -18,9 +19,14 @@ std::optional<JointAxisText> parse_axis_of_joint(const Entry& entry, Diagnostics
 /// Complains of names that are unknown, and of joints that do not move.
 void apply_axes(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics);
 
-/// `given`, and of other joints without an <axis>: of a wheel drawn as a cylinder the cylinder's, of a swivel
-/// upwards. The URDF has them then.
+/// `given`, and of joints whose <axis> is missing or tells nothing: of a wheel drawn as a cylinder the
+/// cylinder's, of a swivel upwards. A swivel whose axis is its wheel's axle steers nothing: a template left
+/// both. Then the wheel's axle is the root's y. The URDF has them then.
 std::vector<JointAxis> find_axes_of(Urdf& urdf, const std::vector<JointAxis>& given);
+
+/// Whether the joint is a swivel of this wheel by its name, or its link's: it is called a caster's or
+/// steering, or is a hinge right above the wheel.
+bool is_called_swivel_of(const UrdfJoint& joint, const UrdfJoint& wheel, const PlacedUrdf& placed);
 
 /// Wheels without an <axis>, of which nothing tells it.
 std::vector<std::string> wheels_without_axis(const Urdf& urdf);

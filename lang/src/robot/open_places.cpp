@@ -30,7 +30,7 @@ constexpr std::array check_reasons{
     Reason{"fixed", "what moves in truth must not stand here"},
     Reason{"turns", "the URDF holds them; a caster's wheel has no motor"},
     Reason{"mimic", "`coupled` by a belt, or `ignore`: each has a motor"},
-    Reason{"axes", "the URDF has none there, which means 1 0 0"},
+    Reason{"axes", "the URDF has none there, or one that tells nothing"},
     Reason{"posture", "how the arm stands at the start: folded, as far as a URDF tells"},
     Reason{"inertias", "the URDF has none, or none that a body has"},
     Reason{"stop", "how hard the base may brake"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <set>
 
 #include "diagnostic/wordings.hpp"
@@ -44,13 +45,44 @@ bool points_up(const UrdfJoint& joint, const PlacedUrdf& placed) {
   return std::abs((placed.pose_of(joint.child).rotation * joint.drawn_axis).z()) > PlacedUrdf::upright;
 }
 
-/// Whether the joint is fixed, carries this wheel alone, and is a swivel. Its axis in the URDF points up, or
-/// it has none and is called a caster or steering.
-bool is_held_swivel(const UrdfJoint& joint, const PlacedUrdf& placed, int wheels_on_it) {
-  if (joint.joint.type != solver::JointType::fixed || wheels_on_it != 1) return false;
-  if (joint.has_axis && !joint.drawn_axis.isZero(0.0)) return points_up(joint, placed);
-  return is_called_caster(joint.joint.name) || is_called_steering(joint.joint.name) ||
-         is_called_caster(joint.child) || is_called_steering(joint.child);
+/// Whether the joint is fixed and is a swivel: its axis in the URDF points up, or its name says it. An axis
+/// that is level tells nothing then: of a fixed joint nobody has ever seen it turn.
+bool is_held_swivel(const UrdfJoint& joint, const PlacedUrdf& placed, const UrdfJoint& wheel) {
+  if (joint.joint.type != solver::JointType::fixed) return false;
+  const bool has_axis = joint.has_axis && !joint.drawn_axis.isZero(0.0);
+  return (has_axis && points_up(joint, placed)) || is_called_swivel_of(joint, wheel, placed);
+}
+
+/// Held wheels of one axle, as large as a wheel that turns and as low: a car's rear wheels, for example,
+/// where the URDF lets those turn that steer. A single one may be a caster's.
+std::vector<std::string> held_axles(const Urdf& urdf, const FoundWheels& found) {
+  const PlacedUrdf placed(urdf, found.base);
+  constexpr double one_line = 0.05;  // of the distance of two wheels
+  const auto is_alike = [&](const UrdfJoint& held, const DraftWheel& turns) {
+    const std::optional<double> radius = placed.radius_of(held);
+    const double size = radius.value_or(0.0);
+    return radius.has_value() == turns.radius.has_value() &&
+           std::abs(size - turns.radius.value_or(0.0)) <= PlacedUrdf::slack * size &&
+           std::abs(placed.place_of(held).z() - turns.at[2]) <=
+               PlacedUrdf::slack * radius.value_or(one_line * std::hypot(turns.at[0], turns.at[1]));
+  };
+  std::vector<const UrdfJoint*> held;
+  for (const StuckWheel& wheel : found.stuck) {
+    const UrdfJoint* joint = urdf.find_joint(wheel.joint);
+    if (joint->joint.type == solver::JointType::prismatic) continue;
+    const auto is_alike_to = [&](const DraftWheel& turns) { return is_alike(*joint, turns); };
+    if (std::any_of(found.wheels.begin(), found.wheels.end(), is_alike_to)) held.push_back(joint);
+  }
+  std::vector<std::string> names;
+  for (const UrdfJoint* joint : held) {
+    const auto is_other_side = [&](const UrdfJoint* other) {
+      const solver::Vector3 axle(found.wheels.front().axle.x(), found.wheels.front().axle.y(), 0.0);
+      const solver::Vector3 between = placed.place_of(*other) - placed.place_of(*joint);
+      return other != joint && between.cross(axle).norm() < one_line * between.norm();
+    };
+    if (std::any_of(held.begin(), held.end(), is_other_side)) names.push_back(joint->joint.name);
+  }
+  return names;
 }
 
 /// More wheels than a base stands on are the rollers of its tracks: those stand on the ground that are as low
@@ -78,7 +110,9 @@ std::vector<std::string> wheels_to_turn(const Urdf& urdf, const FoundWheels& fou
     if (urdf.find_joint(wheel.joint)->joint.type != solver::JointType::prismatic)
       stuck.push_back(wheel.joint);
   }
-  std::vector<const UrdfJoint*> wheels, above_wheels;
+  if (!found.wheels.empty()) stuck = held_axles(urdf, found);
+  std::map<const UrdfJoint*, std::vector<const UrdfJoint*>> wheels_below;  // of the joints above wheels
+  std::vector<const UrdfJoint*> wheels;
   for (const std::string& name : stuck) {
     const UrdfJoint* wheel = urdf.find_joint(name);
     const std::vector<const UrdfJoint*> above = joints_above(urdf, wheel->parent, found.base);
@@ -86,31 +120,49 @@ std::vector<std::string> wheels_to_turn(const Urdf& urdf, const FoundWheels& fou
         above.begin(), above.end(), [&](const UrdfJoint* j) { return is_among(stuck, j->joint.name); });
     if (is_part_of_another) continue;
     wheels.push_back(wheel);
-    above_wheels.insert(above_wheels.end(), above.begin(), above.end());
+    for (const UrdfJoint* joint : above) wheels_below[joint].push_back(wheel);
   }
   if (wheels.size() < 2) return {};
   keep_lowest(wheels, placed);
+  for (const DraftWheel& turns : found.wheels) {
+    const UrdfJoint* wheel = urdf.find_joint(turns.joint);
+    for (const UrdfJoint* joint : joints_above(urdf, wheel->parent, found.base))
+      wheels_below[joint].push_back(wheel);
+  }
   std::vector<std::string> turning;
   for (const UrdfJoint& joint : urdf.joints) {
-    const auto carried = std::count(above_wheels.begin(), above_wheels.end(), &joint);
-    if (is_held_swivel(joint, placed, static_cast<int>(carried))) turning.push_back(joint.joint.name);
+    const auto below = wheels_below.find(&joint);
+    if (below != wheels_below.end() && below->second.size() == 1 &&
+        is_held_swivel(joint, placed, *below->second.front()))
+      turning.push_back(joint.joint.name);
   }
   for (const UrdfJoint* wheel : wheels) turning.push_back(wheel->joint.name);
   return turning;
 }
 
-/// Of wheels that have no axis, and whose shape tells none: the base's y, in the frame of the joint.
+/// Of wheels that have no axis, and whose shape tells none: the base's y, in the frame of the joint. If all
+/// held wheels roll sideways, their axes tell nothing: a template's 1 0 0 does no harm at a joint that is
+/// fixed.
 std::vector<JointAxis> sideways_axles(const Urdf& urdf, const std::string& base,
                                       const std::vector<std::string>& held) {
   const PlacedUrdf placed(urdf, base);
-  std::vector<JointAxis> axes;
+  std::vector<const UrdfJoint*> wheels;
   for (const std::string& name : held) {
     const UrdfJoint* joint = urdf.find_joint(name);
-    if (joint->has_axis || !placed.carried_by(*joint).empty()) continue;
+    if (placed.carried_by(*joint).empty()) wheels.push_back(joint);
+  }
+  const bool roll_sideways = std::all_of(wheels.begin(), wheels.end(), [&](const UrdfJoint* joint) {
+    return joint->drawn_axis.isApprox(solver::Vector3::UnitX()) &&
+           std::abs(placed.axis_of(*joint).y()) < PlacedUrdf::level &&
+           std::abs(placed.axis_of(*joint).z()) < PlacedUrdf::level;
+  });
+  std::vector<JointAxis> axes;
+  for (const UrdfJoint* joint : wheels) {
+    if (joint->has_axis && !roll_sideways) continue;
     constexpr double rounding = 1e-3;
     solver::Vector3 axle = placed.pose_of(joint->child).rotation.transpose() * solver::Vector3::UnitY();
     for (double& number : axle) number = std::abs(number) < rounding ? 0.0 : number;
-    axes.push_back({name, axle.normalized()});
+    axes.push_back({joint->joint.name, axle.normalized()});
   }
   return axes;
 }
@@ -157,7 +209,7 @@ void turn_wheels(const std::filesystem::path& path, Urdf& urdf, DraftOptions& op
     find_axes_of(*turned, turning.axes);
   }
   FoundWheels now = find_wheels(*turned);
-  if (now.wheels.empty()) return;
+  if (now.wheels.size() <= found.wheels.size()) return;
   urdf = std::move(*turned);
   options = std::move(turning);
   found = std::move(now);
@@ -165,10 +217,9 @@ void turn_wheels(const std::filesystem::path& path, Urdf& urdf, DraftOptions& op
 
 std::string turns_entry(const std::vector<std::string>& joints) {
   if (joints.empty()) return "";
-  return "\n# The URDF holds these joints, and no other wheel turns: simulators that push a base about draw "
-         "it "
-         "so.\n# Here they turn without end. A caster's wheel, which has no motor, must not stand in "
-         "`actuated`.\nturns: " +
+  return "\n# The URDF holds these joints: simulators that push a base about draw its wheels so. Here they "
+         "turn "
+         "without\n# end. A caster's wheel, which has no motor, must not stand in `actuated`.\nturns: " +
          in_brackets(joints) + "\n";
 }
 

@@ -20,8 +20,8 @@ void let_turn(const std::vector<std::string>& joints, std::vector<XmlElement>& e
 /// Complains of names that are unknown.
 void check_turning(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
 
-/// For a draft in which no wheel turns. Lets the wheels turn that the URDF holds, and the swivels between
-/// such a wheel and the base. Changes nothing where that makes no wheels.
+/// Lets the wheels turn that the URDF holds, and the swivels above them. Where other wheels turn, only those
+/// that stand as they do on an axle of their own. Changes nothing where that makes no more wheels.
 void turn_wheels(const std::filesystem::path& path, Urdf& urdf, DraftOptions& options, FoundWheels& found);
 
 /// The section `turns` of a draft.

@@ -202,6 +202,22 @@ std::set<std::string> find_transmissions(const std::vector<XmlElement>& elements
   return joints;
 }
 
+/// Links at the ends of each <joint> that stands in a <gazebo>, with the ends as text.
+std::set<std::string> find_loops(const std::vector<XmlElement>& elements) {
+  const auto parent_of = [&](const XmlElement& element) {
+    return element.parent > 0 ? &elements[static_cast<std::size_t>(element.parent)] : nullptr;
+  };
+  std::set<std::string> links;
+  for (const XmlElement& element : elements) {
+    const XmlElement* joint = parent_of(element);
+    const bool is_end = element.name == "parent" || element.name == "child";
+    if (!is_end || element.text.empty() || joint == nullptr || joint->name != "joint") continue;
+    const XmlElement* above = parent_of(*joint);
+    if (above != nullptr && above->name == "gazebo") links.insert(element.text);
+  }
+  return links;
+}
+
 /// Of links that move by themselves; what is fixed to another is judged with it.
 void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
   for (UrdfLink& link : urdf.links) {
@@ -293,6 +309,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const UrdfCh
   Urdf urdf;
   urdf.left_out = std::move(left_out);
   urdf.above_base = std::move(above_base);
+  urdf.looped = find_loops(*elements);
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,7 @@ struct Urdf {
   std::vector<UrdfJoint> joints;
   LeftOut left_out;
   AboveBase above_base;
+  std::set<std::string> looped;  ///< links that a simulator's own <joint> ties to another: no tree has loops
 
   const UrdfLink* find_link(const std::string& link) const;
   const UrdfJoint* find_joint(const std::string& joint) const;

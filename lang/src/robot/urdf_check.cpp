@@ -72,10 +72,14 @@ class UrdfChecker {
       complain(wording::not_urdf(elements_[0].span, elements_[0].name));
       return std::nullopt;
     }
-    for (const XmlElement& element : elements_) check_sizes(element);
+    for (const XmlElement& element : elements_) {
+      check_sizes(element);
+      // Without its prefix a newer xacro leaves it as it is, and a joint has no origin.
+      if (element.name.starts_with("xacro:") || element.name == "insert_block")
+        complain_of_macro(element.span, element.name);
+    }
     for (const std::size_t i : children_[0]) {
       const XmlElement& element = elements_[i];
-      if (element.name.starts_with("xacro:")) complain_of_macro(element.span, element.name);
       if (element.name == "link") check_link(i);
       if (element.name == "joint") check_joint(i);
     }

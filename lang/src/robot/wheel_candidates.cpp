@@ -42,6 +42,7 @@ class CandidateSearch {
       if (ground && !holds(wheels, joint) && stands_at(*ground, *joint)) wheels.push_back(joint);
     }
     add_by_place(wheels);
+    add_counterparts(wheels);
     for (const UrdfJoint& joint : urdf_.joints) {
       if (holds(wheels, &joint)) found_.wheels.push_back(&joint);
     }
@@ -157,6 +158,31 @@ class CandidateSearch {
     return most;
   }
 
+  /// Left and right are alike: where a wheel has no other on its axle, the joint at its mirrored place is
+  /// one, too, though its shape is smaller. Some files draw a mark where a tyre is.
+  void add_counterparts(Joints& wheels) {
+    for (const UrdfJoint* wheel : Joints(wheels)) {
+      const auto is_other_side = [&](const UrdfJoint* other) { return are_a_pair(*wheel, *other); };
+      if (std::any_of(wheels.begin(), wheels.end(), is_other_side)) continue;
+      for (const Joints* joints : {&round_, &plain_}) {
+        for (const UrdfJoint* joint : *joints) {
+          if (joint->parent != wheel->parent || !are_a_pair(*wheel, *joint) || !is_mirrored(*wheel, *joint))
+            continue;
+          wheels.push_back(joint);
+          const std::optional<double> radius = placed_.radius_of(*wheel), own = placed_.radius_of(*joint);
+          if (radius && own.value_or(0.0) < *radius) found_.rims[joint] = *radius;
+        }
+      }
+    }
+  }
+
+  /// [m] From the base's middle along the axle, one is as far as the other.
+  bool is_mirrored(const UrdfJoint& a, const UrdfJoint& b) const {
+    const solver::Vector3& at = placed_.place_of(a);
+    const solver::Vector3& other = placed_.place_of(b);
+    return std::abs((at + other).dot(placed_.axis_of(a))) < level_share * (at - other).norm();
+  }
+
   /// As gears of an axle are, between its wheels.
   bool is_between(const UrdfJoint& joint, const Joints& wheels) const {
     double least = 0.0, most = 0.0;
@@ -192,6 +218,26 @@ class CandidateSearch {
     }
   }
 
+  /// Pairs, each on an axle of its own, are wheels of another size where they hang nearly as low.
+  void add_other_axles(Joints& level) const {
+    constexpr double other_size = 0.1;  // of the distance of two axles, their heights may differ
+    const Joints known = level;
+    for (const UrdfJoint* joint : plain_) {
+      const auto hangs_as_low = [&](const UrdfJoint* wheel) {
+        const solver::Vector3 between = placed_.place_of(*joint) - placed_.place_of(*wheel);
+        return joint->parent == wheel->parent &&
+               placed_.axis_of(*joint).cross(placed_.axis_of(*wheel)).norm() < PlacedUrdf::level &&
+               std::abs(between.z()) < other_size * between.head<2>().norm();
+      };
+      const auto is_other_side = [&](const UrdfJoint* other) {
+        return are_a_pair(*joint, *other) && is_mirrored(*joint, *other);
+      };
+      if (!holds(known, joint) && std::all_of(known.begin(), known.end(), hangs_as_low) &&
+          std::any_of(plain_.begin(), plain_.end(), is_other_side) && !is_between(*joint, {}))
+        level.push_back(joint);
+    }
+  }
+
   /// For a URDF in which no link is called a wheel and none is round. Adds all links that are level with the
   /// lowest pair, if no other moving link reaches as low.
   void add_lowest(Joints& wheels) const {
@@ -210,6 +256,7 @@ class CandidateSearch {
           !is_between(*joint, {}))
         level.push_back(joint);
     }
+    add_other_axles(level);
     const double below = placed_.place_of(*lowest).z() - level_share * spread_of(level);
     const bool is_pair_there = std::any_of(level.begin(), level.end(), [&](const UrdfJoint* a) {
       return std::any_of(level.begin(), level.end(), [&](const UrdfJoint* b) { return are_a_pair(*a, *b); });

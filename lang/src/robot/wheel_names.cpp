@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 12> casters{"caster",    "castor",   "len
                                                    "loca",      "rotella",  "pivottante", "piroettante"};
 constexpr std::array<std::string_view, 4> sensors{"lidar", "laser", "velodyne", "scanner"};
 constexpr std::array<std::string_view, 3> steerings{"steer", "lenkung", "sterz"};
+constexpr std::array<std::string_view, 3> hinges{"hinge", "knuckle", "kingpin"};
 constexpr std::array<std::string_view, 5> balls{"ball", "kugel", "bille", "bola", "sfera"};
 
 std::vector<std::string> words_of(const std::string& name) {
@@ -60,6 +61,10 @@ bool is_called_caster(const std::string& name) {
 
 bool is_called_steering(const std::string& name) {
   return has_word(name, steerings);
+}
+
+bool is_called_hinge(const std::string& name) {
+  return has_word(name, hinges);
 }
 
 bool is_called_sensor(const std::string& name) {

@@ -222,13 +222,14 @@ class WheelSearch {
       if (!moves(joint) || known.contains(joint.joint.name)) continue;
       // A gear, a screw, or what turns a lidar.
       const bool says_nothing = some_say && !says_motor(joint) && !joint.mimic;
+      const bool is_linked = urdf_.looped.contains(joint.child) && !joint.has_transmission;
       // A mark of a controller, as the mean of two steering angles: nothing that moves depends on it.
       const bool is_light = !says_motor(joint) && !joint.mimic && urdf_.mass() > 0.0 &&
                             mass_beyond(joint) < negligible_share * urdf_.mass();
       const bool turns_sensor = is_called_sensor(joint.child) && !std::isfinite(joint.joint.max_effort);
       const bool is_idle =
           joint.joint.type == solver::JointType::continuous && (says_nothing || turns_sensor);
-      (is_idle || is_light ? found_.in_between : found_.others).push_back(joint.joint.name);
+      (is_idle || is_light || is_linked ? found_.in_between : found_.others).push_back(joint.joint.name);
     }
   }
 

@@ -69,9 +69,12 @@ class XmlScanner {
     while (at_ < text_.size() && is_space(text_[at_])) ++at_;
   }
 
-  /// Text inside elements means nothing in a URDF; outside the root there must be none.
+  /// Text inside elements means nothing in a URDF, but for a simulator's; outside the root there must be
+  /// none.
   void scan_text() {
-    if (open_.empty() && !is_space(text_[at_])) stop("text outside the root element", at_, at_ + 1);
+    const char c = text_[at_];
+    if (open_.empty() && !is_space(c)) stop("text outside the root element", at_, at_ + 1);
+    if (!is_space(c)) elements_[static_cast<std::size_t>(open_.back())].text += c;
     ++at_;
   }
 

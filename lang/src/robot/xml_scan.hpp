@@ -24,7 +24,8 @@ struct XmlElement {
   std::string name;
   int parent = -1;  ///< index; smaller than the own one
   std::vector<XmlAttribute> attributes;
-  Span span;  ///< of `<name`
+  std::string text;  ///< between its tags, without spaces: no URDF has any, a simulator's tags have
+  Span span;         ///< of `<name`
 
   const XmlAttribute* find(std::string_view attribute) const {
     for (const XmlAttribute& a : attributes) {

@@ -64,43 +64,55 @@ std::optional<Event> VelocityDrive::look_for_samples(double time) const noexcept
 
 /// If the drive is sent torque limits, a wheel that is slower than its command is blocked, or rests on its
 /// limit. A wheel that is faster, or turns the other way, does not follow any command.
-bool VelocityDrive::differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept {
+double VelocityDrive::difference(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept {
   const double high = virtual_ ? wheel.most : std::max(0.0, wheel.most);
   const double low = virtual_ ? wheel.least : std::min(0.0, wheel.least);
   const double room = (allowance.slack + bent_by_) / wheel.radius;
-  return rate > high + share * std::abs(high) + room || rate < low - share * std::abs(low) - room;
+  if (rate > high + share * std::abs(high) + room) return rate - high;
+  if (rate < low - share * std::abs(low) - room) return low - rate;
+  return 0.0;
+}
+
+/// Whether it is there for longer than allowed. A virtual robot that a felt contact brakes yields to it: its
+/// motors press with all that they have until it stands. It is no fault while the difference shrinks.
+bool VelocityDrive::lasts(Lag& lag, double difference, const Allowance& allowance,
+                          double time) const noexcept {
+  if (!(difference > 0.0)) lag = {};
+  if (difference > 0.0 && !(lag.since <= time)) lag = {time, difference};
+  if (!(time - lag.since > allowance.time)) return false;
+  const bool yields = virtual_ && virtual_->is_pressed() && difference <= shrunk * lag.difference;
+  if (yields) lag = {time, difference};
+  return !yields;
 }
 
 std::optional<Event> VelocityDrive::look(const solver::State& measured, double time) noexcept {
   std::optional<Event> found;
   if (const solver::Vector3* force = felt_force()) bent_by_ = bent_per_force_ * force->head<2>().norm();
-  const auto since = [time](bool is_so, double began) {
-    return is_so ? std::min(began, time) : solver::infinity;
-  };
   for (Wheel& wheel : wheels_) {
     const double rate = measured.qd(wheel.joint);
-    wheel.beyond_since = since(differs(wheel, rate, fast), wheel.beyond_since);
-    wheel.behind_since = since(virtual_ && differs(wheel, rate, slow), wheel.behind_since);
-    const bool is_found = time - wheel.beyond_since > fast.time || time - wheel.behind_since > slow.time;
-    if (!found && is_found)
+    const bool is_beyond = lasts(wheel.beyond, difference(wheel, rate, fast), fast, time);
+    const double lag = virtual_ ? difference(wheel, rate, slow) : 0.0;
+    const bool is_behind = lasts(wheel.behind, lag, slow, time);
+    if (!found && (is_beyond || is_behind))
       found =
           Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
   }
   const solver::Vector3& velocity = measured.base_twist.linear;
-  led_away_since_ = since(virtual_ && differs(velocity), led_away_since_);
-  if (!found && time - led_away_since_ > fast.time)
+  const bool is_led_away = lasts(led_away_, virtual_ ? difference(velocity) : 0.0, fast, time);
+  if (!found && is_led_away)
     found = Event{EventCode::not_followed, time, event_signal::base_twist, velocity.head<2>().norm()};
   return found;
 }
 
 /// From the nearest of what it was told on the way from `before_` to `told_`.
-bool VelocityDrive::differs(const solver::Vector3& velocity) const noexcept {
+double VelocityDrive::difference(const solver::Vector3& velocity) const noexcept {
   const Eigen::Vector2d v = velocity.head<2>();
   const Eigen::Vector2d way = told_ - before_;
   const double square = way.squaredNorm();
   const double part = square > 0.0 ? std::clamp((v - before_).dot(way) / square, 0.0, 1.0) : 0.0;
   const double most = std::max(told_.norm(), before_.norm());
-  return (v - before_ - part * way).norm() > fast.slack + bent_by_ + share * most;
+  const double off = (v - before_ - part * way).norm();
+  return off > fast.slack + bent_by_ + share * most ? off : 0.0;
 }
 
 /// The largest and the least of the commands that may still be on their way.

@@ -77,6 +77,9 @@ class VelocityDrive {
   /// differ by more. A loop without an integral leaves tau R/k_p of dry friction: 2 mm/s of 0.1 N m a wheel.
   static constexpr Allowance slow{0.005, 1.2};
   static constexpr double share = 0.3;
+  /// While a contact is felt, the virtual robot brakes, and the real base stands already. The time begins
+  /// again if the difference shrank to this part. The way is at most 1/(1 - this) of 6 mm.
+  static constexpr double shrunk = 0.75;
   /// Beside, of a robot that feels and whose loops have no integral: so much of |w| T_c/m, which a loop that
   /// presses with w stays behind.
   static constexpr double bent = 1.5;
@@ -87,21 +90,27 @@ class VelocityDrive {
   static constexpr double brake_after = 0.5;  ///< [s] that a drive brakes blindly after its command is 0
 
  private:
+  /// Of what differs from its command by more than an allowance.
+  struct Lag {
+    double since = solver::infinity;  ///< [s]
+    double difference = 0.0;          ///< then: [rad/s] of a wheel, [m/s] of the base
+  };
   struct Wheel {
     int joint = 0;
-    double radius = 0.0;                     ///< [m]
-    double brake = 0.0;                      ///< [N m] its part of `stop.force`
-    double most = 0.0, least = 0.0;          ///< [rad/s] of the latest commands
-    double beyond_since = solver::infinity;  ///< [s] the fast allowance,
-    double behind_since = solver::infinity;  ///< [s] the slow one
-    double rate_then = 0.0;                  ///< [rad/s] when all were slowest
+    double radius = 0.0;             ///< [m]
+    double brake = 0.0;              ///< [N m] its part of `stop.force`
+    double most = 0.0, least = 0.0;  ///< [rad/s] of the latest commands
+    Lag beyond, behind;              ///< of the fast allowance, and of the slow one
+    double rate_then = 0.0;          ///< [rad/s] when all were slowest
     bool is_let_go = false;
   };
   void remember(const Command& command) noexcept;
   void let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect) noexcept;
-  /// Whether the base's velocity in the plane, in its axes, differs from its command. [m/s]
-  bool differs(const solver::Vector3& velocity) const noexcept;
-  bool differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept;
+  /// Of the base's velocity in the plane, in its axes, from its command [m/s]; 0 within the allowance.
+  double difference(const solver::Vector3& velocity) const noexcept;
+  /// Of a wheel's rate from its command. [rad/s]
+  double difference(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept;
+  bool lasts(Lag& lag, double difference, const Allowance& allowance, double time) const noexcept;
   void ramp_to_rest(Command& command) const noexcept;
 
   lang::Drive drive_;
@@ -120,7 +129,7 @@ class VelocityDrive {
   double slowest_ = solver::infinity;                 ///< [m/s] rms of the rims while they are braked
   Eigen::Vector2d told_ = Eigen::Vector2d::Zero();    ///< [m/s] the base's velocity, last
   Eigen::Vector2d before_ = Eigen::Vector2d::Zero();  ///< [m/s] the same, as far as it may be on its way
-  double led_away_since_ = solver::infinity;          ///< [s] the base differs
+  Lag led_away_;                                      ///< of the base
   double measured_at_ = -solver::infinity;            ///< [s]
   double blind_for_ = 0.0;                            ///< [s] with the command at 0
 };

@@ -75,6 +75,8 @@ class VirtualRobot {
   }
   /// Of a robot that feels.
   const solver::Vector3* felt_force() const noexcept { return contact_ ? &contact_->force() : nullptr; }
+  /// It feels a contact now, and is damped.
+  bool is_pressed() const noexcept { return contact_ && contact_->is_pressed(); }
   /// By a sample that was measured at `stamp` [s].
   void correct(const solver::State& measured, double stamp) noexcept;
   /// Joints and base of `state` become those of the virtual robot.

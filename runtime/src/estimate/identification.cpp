@@ -9,11 +9,20 @@
 //   B' [ dp/dt + w x p ; dL/dt + v x p ]  +  sum_i B' j_i I_i dw_i/dt
 //       = sum_i B' j_i ( k_i tau_i - c_i sign(w_i) - d_i w_i ).
 //
-// Integrated over windows of 0.1 s, no rate needs a derivative: impulses of torques stand beside differences
-// of momenta and of angles. The lines are linear in each motor's torque factor k_i, dry friction c_i and
-// viscous friction d_i. They are linear in J, and in m where it is asked for:
+// Each line is weighed over a window of 0.2 s by a trapezoid f(t) with ramps of 60 ms:
 //
-//   y = X b,   b = (X'X)^-1 X'y,   error of b_n = sqrt( |y - X b|^2 / (lines - columns) (X'X)^-1_nn ).
+//   int f dp/dt dt = - int df/dt p dt,
+//
+// so no rate needs a derivative: impulses of torques stand beside differences of mean momenta and of angles.
+// The lines are linear in each motor's torque factor k_i, dry friction c_i and viscous friction d_i. They are
+// linear in J, and in m where it is asked for.
+//
+// Measured rates are noisy, and a column that has noise is estimated too small by least squares: m and J
+// stand before such columns. So the means are taken twice, of every other sample, X and Z. Their noise is not
+// correlated, and so it is in no product of both:
+//
+//   A = (Z'X + X'Z)/2,   b = A^-1 (Z'y_X + X'y_Z)/2,
+//   s = (z (y_X - x b) + x (y_Z - z b))/2 of each line,   covariance of b = A^-1 (sum s s') A^-1.
 //
 // A mass scales all of b but itself, so it is known, or a known load makes it so. A window in which a wheel
 // hardly turns, or a caster swings, is left out: their forces are not those of sliding friction.
@@ -29,7 +38,8 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double window = 0.1;        // [s]
+constexpr double window = 0.2;        // [s]
+constexpr double ramp = 0.06;         // [s]
 constexpr double longest_gap = 0.05;  // [s] between records
 constexpr double least_rate = 0.3;    // [rad/s] of a wheel whose dry friction slides
 constexpr double most_swing = 0.3;    // [rad/s] of a caster
@@ -112,49 +122,27 @@ void DriveIdentification::find_wheels(const lang::Robot& robot) {
 }
 
 void DriveIdentification::begin_run(double added_load) {
-  first_.reset();
-  last_.reset();
+  samples_.clear();
   added_load_ = added_load;
-}
-
-DriveIdentification::Sample DriveIdentification::sample_of(double time, const Eigen::VectorXd& qd) const {
-  Sample sample{time, Eigen::VectorXd(static_cast<Eigen::Index>(wheels_.size())), {}};
-  for (std::size_t i = 0; i < wheels_.size(); ++i)
-    sample.rates(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
-  sample.twist = twist_of_ * sample.rates;
-  return sample;
 }
 
 void DriveIdentification::add(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                               const Eigen::VectorXd& tau) {
-  const Sample now = sample_of(time, qd);
-  if (last_ && time - last_->time <= longest_gap) {
-    const double step = time - last_->time;
-    impulse_ += step * last_tau_;
-    const Eigen::Vector3d mean = 0.5 * (last_->twist + now.twist), p = momentum_per_mass(mean);
-    turned_ +=
-        step * Eigen::Vector3d(-mean.z() * p.y(), mean.z() * p.x(), mean.x() * p.y() - mean.y() * p.x());
-    for (std::size_t i = 0; i < wheels_.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      is_clean_ = is_clean_ && std::abs(now.rates(k)) >= least_rate && now.rates(k) * first_->rates(k) > 0.0;
-    }
-    for (const int swivel : swivels_) is_clean_ = is_clean_ && std::abs(qd(swivel)) <= most_swing;
-    if (time - first_->time >= window - 1e-9) {
-      if (is_clean_) end_window(now, q);
-      first_.reset();
-    }
-  } else {
-    first_.reset();
-  }
-  if (!first_) {
-    first_ = now;
-    first_q_ = q;
-    impulse_ = Eigen::VectorXd::Zero(tau.size());
-    turned_.setZero();
-    is_clean_ = (now.rates.array().abs() >= least_rate).all();
-  }
-  last_ = now;
-  last_tau_ = tau;
+  Sample now{time, Eigen::VectorXd(static_cast<Eigen::Index>(wheels_.size())), {}, q, tau};
+  for (std::size_t i = 0; i < wheels_.size(); ++i)
+    now.rates(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
+  now.twist = twist_of_ * now.rates;
+  if (!samples_.empty() && time - samples_.back().time > longest_gap) samples_.clear();
+  if (samples_.empty()) is_clean_ = true;
+  samples_.push_back(std::move(now));
+  const Eigen::VectorXd& rates = samples_.back().rates;
+  is_clean_ = is_clean_ && (rates.array().abs() >= least_rate).all() &&
+              (rates.array() * samples_.front().rates.array() > 0.0).all();
+  for (const int swivel : swivels_) is_clean_ = is_clean_ && std::abs(qd(swivel)) <= most_swing;
+  if (time - samples_.front().time < window - 1e-9) return;
+  if (is_clean_) end_window();
+  samples_.erase(samples_.begin(), samples_.end() - 1);
+  is_clean_ = (samples_.front().rates.array().abs() >= least_rate).all();
 }
 
 Eigen::Vector3d DriveIdentification::momentum_per_mass(const Eigen::Vector3d& twist) const {
@@ -167,17 +155,64 @@ Eigen::Index DriveIdentification::columns() const {
   return 3 * static_cast<Eigen::Index>(motors_.size()) + 1 + (mass_ ? 0 : 1);
 }
 
-void DriveIdentification::end_window(const Sample& last, const Eigen::VectorXd& q) {
-  const Eigen::Vector3d change = momentum_per_mass(last.twist) - momentum_per_mass(first_->twist) + turned_;
-  const Eigen::Vector3d twist_change = last.twist - first_->twist;
-  const double known_mass = added_load_ + mass_.value_or(0.0);
-  Eigen::Vector3d known = known_mass * change;
-  known.head<2>() += caster_mass_ * twist_change.head<2>();
-  for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    known += wheels_[i].rates * wheels_[i].inertia * (last.rates(k) - first_->rates(k));
+/// f of each interval, at its middle.
+std::vector<double> DriveIdentification::trapezoid() const {
+  std::vector<double> f;
+  const double begin = samples_.front().time, end = samples_.back().time;
+  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
+    const double middle = 0.5 * (samples_[i].time + samples_[i + 1].time);
+    f.push_back(std::min({1.0, (middle - begin) / ramp, (end - middle) / ramp}));
   }
-  const double seconds = last.time - first_->time;
+  return f;
+}
+
+/// sum f_i (p_(i+1) - p_i) = sum w_i p_i, of the samples of one parity. They stand for all: on each ramp
+/// their weights are as much in sum.
+Eigen::VectorXd DriveIdentification::weights(const std::vector<double>& f, std::size_t parity) const {
+  const auto count = static_cast<Eigen::Index>(samples_.size());
+  Eigen::VectorXd all(count), some = Eigen::VectorXd::Zero(count);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    all(k) = (i > 0 ? f[i - 1] : 0.0) - (i < f.size() ? f[i] : 0.0);
+    if (i % 2 == parity) some(k) = all(k);
+  }
+  const double falls = some.cwiseMin(0.0).sum(), rises = some.cwiseMax(0.0).sum();
+  if (falls == 0.0 || rises == 0.0) return all;
+  return all.cwiseMin(0.0).sum() / falls * some.cwiseMin(0.0) +
+         all.cwiseMax(0.0).sum() / rises * some.cwiseMax(0.0);
+}
+
+void DriveIdentification::end_window() {
+  const std::vector<double> f = trapezoid();
+  Window sums{Eigen::VectorXd::Zero(samples_.front().tau.size()),
+              Eigen::VectorXd::Zero(samples_.front().q.size()), Eigen::Vector3d::Zero(), 0.0};
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const Sample &a = samples_[i], &b = samples_[i + 1];
+    const double step = f[i] * (b.time - a.time);
+    sums.seconds += step;
+    sums.impulse += step * a.tau;
+    sums.angle += f[i] * (b.q - a.q);
+    const Eigen::Vector3d mean = 0.5 * (a.twist + b.twist), p = momentum_per_mass(mean);
+    sums.turned +=
+        step * Eigen::Vector3d(-mean.z() * p.y(), mean.z() * p.x(), mean.x() * p.y() - mean.y() * p.x());
+  }
+  add_lines(sums, weights(f, 0), even_);
+  add_lines(sums, weights(f, 1), odd_);
+}
+
+void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& weights, Lines& lines) const {
+  Eigen::Vector3d twist_change = Eigen::Vector3d::Zero();
+  Eigen::VectorXd rate_change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wheels_.size()));
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const double weight = weights(static_cast<Eigen::Index>(i));
+    twist_change += weight * samples_[i].twist;
+    rate_change += weight * samples_[i].rates;
+  }
+  const Eigen::Vector3d change = momentum_per_mass(twist_change) + sums.turned;
+  Eigen::Vector3d known = (added_load_ + mass_.value_or(0.0)) * change;
+  known.head<2>() += caster_mass_ * twist_change.head<2>();
+  for (std::size_t i = 0; i < wheels_.size(); ++i)
+    known += wheels_[i].rates * wheels_[i].inertia * rate_change(static_cast<Eigen::Index>(i));
   for (Eigen::Index n = 0; n < permitted_.cols(); ++n) {
     const Eigen::Vector3d along = permitted_.col(n);
     // A line about the vertical has moments: as forces at an arm it counts as much as the others.
@@ -186,49 +221,60 @@ void DriveIdentification::end_window(const Sample& last, const Eigen::VectorXd& 
     for (std::size_t m = 0; m < motors_.size(); ++m) {
       const Wheel& wheel = wheels_[motors_[m]];
       const double lever = along.dot(wheel.rates);
+      const double rate = samples_.back().rates(static_cast<Eigen::Index>(motors_[m]));
       const auto at = 3 * static_cast<Eigen::Index>(m);
-      row(at) = lever * impulse_(wheel.joint);
-      row(at + 1) = -lever * std::copysign(seconds, last.rates(static_cast<Eigen::Index>(motors_[m])));
-      row(at + 2) = -lever * (q(wheel.joint) - first_q_(wheel.joint));
+      row(at) = lever * sums.impulse(wheel.joint);
+      row(at + 1) = -lever * std::copysign(sums.seconds, rate);
+      row(at + 2) = -lever * sums.angle(wheel.joint);
     }
     row(3 * static_cast<Eigen::Index>(motors_.size())) = -along.z() * twist_change.z();
     if (!mass_) row(columns() - 1) = -along.dot(change);
-    rows_.push_back(scale * row);
-    right_.push_back(scale * along.dot(known));
+    lines.left.push_back(scale * row);
+    lines.right.push_back(scale * along.dot(known));
   }
 }
 
 Identification DriveIdentification::solve() const {
-  const std::size_t windows = rows_.size() / static_cast<std::size_t>(permitted_.cols());
+  const std::size_t windows = even_.left.size() / static_cast<std::size_t>(permitted_.cols());
   if (windows < fewest_windows)
     throw NotIdentified("too little motion: " + std::to_string(windows) +
-                        " windows of 0.1 s in which all wheels "
+                        " windows of 0.2 s in which all wheels "
                         "turn, of " +
                         std::to_string(fewest_windows) + " that are needed");
-  const auto lines = static_cast<Eigen::Index>(rows_.size());
-  Eigen::MatrixXd x(lines, columns());
-  Eigen::VectorXd y(lines);
+  const auto lines = static_cast<Eigen::Index>(even_.left.size());
+  Eigen::MatrixXd x(lines, columns()), z(lines, columns());
+  Eigen::VectorXd y_x(lines), y_z(lines);
   for (Eigen::Index i = 0; i < lines; ++i) {
-    x.row(i) = rows_[static_cast<std::size_t>(i)];
-    y(i) = right_[static_cast<std::size_t>(i)];
+    const auto k = static_cast<std::size_t>(i);
+    x.row(i) = even_.left[k];
+    z.row(i) = odd_.left[k];
+    y_x(i) = even_.right[k];
+    y_z(i) = odd_.right[k];
   }
-  const Eigen::VectorXd norms = x.colwise().norm();
-  if (norms.minCoeff() <= 0.0)
+  const Eigen::VectorXd squares = x.cwiseProduct(z).colwise().sum();
+  if (squares.minCoeff() <= 0.0)
     throw NotIdentified("too little motion: the base never turned, or a motor never pushed");
-  const Eigen::MatrixXd unit = x * norms.cwiseInverse().asDiagonal();
-  // unit' unit = V S^2 V', the normal equations. Up to the most condition they keep six of sixteen digits.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(unit.transpose() * unit);
-  const Eigen::VectorXd singular = gram.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // the least comes first
-  if (singular(0) * most_condition < singular(singular.size() - 1))
+  const Eigen::VectorXd norms = squares.cwiseSqrt();
+  x *= norms.cwiseInverse().asDiagonal();
+  z *= norms.cwiseInverse().asDiagonal();
+  // A = V D V' at unit columns. Up to the most condition its inverse keeps six of sixteen digits. Noise that
+  // is larger than the motion makes an eigenvalue negative.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(0.5 * (z.transpose() * x + x.transpose() * z));
+  const Eigen::VectorXd& values = gram.eigenvalues();  // the least comes first
+  if (!(values(0) * most_condition * most_condition > values(values.size() - 1)))
     throw NotIdentified(
         "too little variety: friction, torque and mass cannot be told apart. Drive ahead, back and "
         "turn at unlike speeds, as the task `identify` does");
-  const Eigen::MatrixXd v_over_s = gram.eigenvectors() * singular.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd scaled = v_over_s * (v_over_s.transpose() * (unit.transpose() * y));
-  const double variance =
-      (y - unit * scaled).squaredNorm() / std::max<double>(1.0, static_cast<double>(lines - columns()));
+  const Eigen::MatrixXd& v = gram.eigenvectors();
+  const Eigen::MatrixXd inverse = v * values.cwiseInverse().asDiagonal() * v.transpose();
+  const Eigen::VectorXd scaled = inverse * (0.5 * (z.transpose() * y_x + x.transpose() * y_z));
+  const Eigen::VectorXd off_x = y_x - x * scaled, off_z = y_z - z * scaled;
+  const Eigen::MatrixXd scores = 0.5 * (off_x.asDiagonal() * z + off_z.asDiagonal() * x);
+  const double freedom =
+      static_cast<double>(lines) / std::max<double>(1.0, static_cast<double>(lines - columns()));
+  const Eigen::MatrixXd covariance = freedom * inverse * (scores.transpose() * scores) * inverse;
   const auto estimate = [&](Eigen::Index n) {
-    return Estimate{scaled(n) / norms(n), std::sqrt(variance) * v_over_s.row(n).norm() / norms(n)};
+    return Estimate{scaled(n) / norms(n), std::sqrt(covariance(n, n)) / norms(n)};
   };
   Identification result;
   result.windows = windows;

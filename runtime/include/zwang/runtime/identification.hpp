@@ -40,7 +40,8 @@ struct Identification {
   std::size_t windows = 0;
 };
 
-/// Takes the records of one run after the other, and estimates by least squares. Equations: in the source.
+/// Takes the records of one run after the other, and estimates by instrumental variables. Equations: in the
+/// source.
 class ZWANG_EXPORT DriveIdentification {
  public:
   /// Without `mass` [kg] it is estimated, too: one of the runs must carry a known load. Throws NotIdentified
@@ -65,12 +66,27 @@ class ZWANG_EXPORT DriveIdentification {
   };
   struct Sample {
     double time = 0.0;
-    Eigen::VectorXd rates;  ///< [rad/s] of the wheels
-    Eigen::Vector3d twist;  ///< (vx, vy, wz) of the base, in its axes
+    Eigen::VectorXd rates;   ///< [rad/s] of the wheels
+    Eigen::Vector3d twist;   ///< (vx, vy, wz) of the base, in its axes
+    Eigen::VectorXd q, tau;  ///< [rad] and, until the next one, [N m], of all joints
+  };
+  /// Sums over a window, weighed by the trapezoid.
+  struct Window {
+    Eigen::VectorXd impulse;  ///< [N m s] of the motors
+    Eigen::VectorXd angle;    ///< [rad]
+    Eigen::Vector3d turned;   ///< of w x p and v x p, a mass's share
+    double seconds = 0.0;
+  };
+  /// left . b = right
+  struct Lines {
+    std::vector<Eigen::VectorXd> left;
+    std::vector<double> right;
   };
   void find_wheels(const lang::Robot& robot);
-  void end_window(const Sample& last, const Eigen::VectorXd& q);
-  Sample sample_of(double time, const Eigen::VectorXd& qd) const;
+  void end_window();
+  std::vector<double> trapezoid() const;
+  Eigen::VectorXd weights(const std::vector<double>& f, std::size_t parity) const;
+  void add_lines(const Window& sums, const Eigen::VectorXd& weights, Lines& lines) const;
   /// m^-1 (p_x, p_y, L - J w) of a twist.
   Eigen::Vector3d momentum_per_mass(const Eigen::Vector3d& twist) const;
   Eigen::Index columns() const;
@@ -85,14 +101,9 @@ class ZWANG_EXPORT DriveIdentification {
   double length_ = 0.3;              ///< [m] makes forces of torques
   std::optional<double> mass_;
   double added_load_ = 0.0;
-  // The window that is open.
-  std::optional<Sample> first_, last_;
-  Eigen::VectorXd first_q_, impulse_;  ///< [N m s] of the motors
-  Eigen::VectorXd last_tau_;
-  Eigen::Vector3d turned_;  ///< integral of w x p and v x p, a mass's share
-  bool is_clean_ = true;
-  std::vector<Eigen::VectorXd> rows_;
-  std::vector<double> right_;
+  std::vector<Sample> samples_;  ///< of the window that is open
+  bool is_clean_ = true;         ///< the forces of that window are those of sliding friction
+  Lines even_, odd_;             ///< by the rates of every other sample
 };
 
 }  // namespace zwang::runtime
