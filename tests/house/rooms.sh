@@ -104,7 +104,7 @@ keep_library 'CLI/' 'runtime/cli/command_line/.*\.hpp' 1
 keep_library '(eprosima|fastdds|fastrtps|fastcdr)/' 'runtime/connect/.*\.cpp' 1
 keep_library 'libwebsockets' 'runtime/cli/.*\.cpp' 1
 keep_library 'mpi\.h' 'runtime/study/mpi/.*\.cpp' 1
-keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 6
+keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 7
 keep_library 'nlohmann/' '(lang|runtime)/.*\.cpp|lang/src/schema/parts\.hpp|runtime/(cli/json_parts|lsp/json|src/log/foxglove)\.hpp' 20
 keep_library 'pybind11/' 'runtime/python/.*\.[ch]pp' 6
 keep_library 'zstd|zlib' 'runtime/src/log/.*\.cpp' 1

@@ -7,73 +7,13 @@
 #include <functional>
 #include <numbers>
 
+#include "blind_course.hpp"
 #include "guard/hook_latch.hpp"
 #include "robots.hpp"
 #include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime::test {
 namespace {
-
-constexpr double acceleration = 1.0;  // [m/s^2] at the start: 0.5 m/s within 0.5 s
-
-lang::Program sets_out(double speed) {
-  return program({task("go", {drive("go.x", Axis::x, Quantity::velocity, speed),
-                              drive("go.y", Axis::y, Quantity::velocity, 0.0),
-                              drive("go.rz", Axis::rz, Quantity::velocity, 0.0)})});
-}
-
-/// Encoders that stay where they were, but for what is less than any step.
-class Failing {
- public:
-  void spoil(Sensed& sensed) {
-    if (!has_failed_) q_ = sensed.state.q;
-    has_failed_ = true;
-    sensed.state.q = q_.array() + 1e-10 * (++count_ % 2);
-    sensed.state.qd.setZero();
-  }
-
- private:
-  Eigen::VectorXd q_;
-  bool has_failed_ = false;
-  int count_ = 0;
-};
-
-struct Course {
-  double fastest = 0.0;  ///< [m/s]
-  double at_end = 0.0;   ///< [m/s]
-  EventCode reason = EventCode::none;
-  int probed = 0;
-  double stopped_at = 0.0;  ///< [s]
-};
-
-/// `before` a step of the runner, with what it is told; `after` a step of the base.
-Course go(
-    const lang::Program& program_, double seconds, PlanarBase base,
-    const std::function<void(PlanarBase&, Sensed&)>& before,
-    const std::function<void(PlanarBase&)>& after = [](PlanarBase&) {}) {
-  Runner runner(program_);
-  Sensed sensed(program_.robot.model, program_.signals.size());
-  Course course;
-  while (base.time < seconds) {
-    base.sense(sensed);
-    sensed.base_measured = false;
-    before(base, sensed);
-    base.step(runner.step(sensed));
-    after(base);
-    course.fastest = std::max(course.fastest, std::abs(base.V.x()));
-  }
-  course.at_end = std::abs(base.V.x());
-  course.reason = runner.guard().reason();
-  course.stopped_at = runner.guard().stop_event().time;
-  for (const Event& event : runner.events()) course.probed += event.code == EventCode::probed ? 1 : 0;
-  return course;
-}
-
-/// The world takes what the base has more than V in this step, of its wheels, too.
-void hold(PlanarBase& base, const Eigen::Vector3d& V) {
-  base.wheels -= period * base.jacobian() * (base.V - V);
-  base.V = V;
-}
 
 /// v^2 = 2 a S; then the base stands again, but for a tenth and the torque that counts as friction.
 TEST(BlindBudget, FromRestABaseIsAsFastAsItsWayOfTheBudget) {
@@ -194,68 +134,6 @@ TEST(BlindBudget, WhatALookHasFoundIsLeftBehind) {
   EXPECT_GE(course.probed, 1);
   EXPECT_EQ(course.reason, EventCode::frozen);
   EXPECT_LT(course.fastest, 1.1 * 0.2);
-}
-
-constexpr double press = 20.0;  // [N]
-
-lang::Program presses() {
-  lang::Program program_ = program({task("press", {drive("press.x", Axis::x, Quantity::force, press),
-                                                   drive("press.y", Axis::y, Quantity::velocity, 0.0),
-                                                   drive("press.rz", Axis::rz, Quantity::velocity, 0.0)})});
-  program_.tasks.front().timeout = lang::Timeout{{.constant = 4.0}, to_failed, {}};
-  return program_;
-}
-
-/// A hook catches the base from 0.5 s on, within a fifth of a second, and then holds it both ways. Only the
-/// latch distinguishes this from dead encoders.
-lang::Program with_latch(lang::Program program_, int holds) {
-  lang::Signal latch;
-  latch.name = "latch";
-  latch.stale_after = {.constant = 0.2};
-  latch.holds = holds;
-  program_.signals = {latch};
-  return program_;
-}
-
-Course pull_in_a_dock(int holds, double open_at, double stale_from) {
-  return go(
-      with_latch(presses(), holds), 3.0, {},
-      [&](PlanarBase& base, Sensed& sensed) {
-        if (base.time > stale_from) return;
-        const bool is_closed = base.time > 0.6 && base.time < open_at;
-        sensed.signals[0] = {.valid = true, .stamp = base.time, .boolean = is_closed};
-      },
-      [&](PlanarBase& base) {
-        if (base.time < 0.5) return;
-        hold(base, base.time < 0.7 ? Eigen::Vector3d(0.95 * base.V) : Eigen::Vector3d::Zero());
-      });
-}
-
-constexpr double never = 1e9;  // [s]
-
-TEST(HookLatch, TellsADockFromDeadEncoders) {
-  EXPECT_EQ(pull_in_a_dock(-1, never, never).reason, EventCode::frozen) << "nobody says that a hook holds";
-  EXPECT_EQ(pull_in_a_dock(2, never, never).reason, EventCode::none);
-  const Course opened = pull_in_a_dock(2, 1.5, never);
-  EXPECT_EQ(opened.reason, EventCode::frozen) << "it is open, and nothing moves";
-  EXPECT_GT(opened.stopped_at, 1.5);
-  const Course stale = pull_in_a_dock(2, never, 1.5);
-  EXPECT_EQ(stale.reason, EventCode::frozen) << "nobody says so any more";
-  EXPECT_GT(stale.stopped_at, 1.7);
-}
-
-/// The hook is on a cart that rolls along, its mass left out: the base sets out with 1 m/s^2 10 ms before its
-/// encoders die. It is asked as a held press is.
-TEST(HookLatch, AHookThatRollsAlongExcusesNoTaskThatAsksForMotion) {
-  constexpr double dies_at = 0.01, closes_at = 0.003;  // [s]
-  Failing encoders;
-  const Course course = go(with_latch(sets_out(0.5), 2), 3.0, {}, [&](PlanarBase& base, Sensed& sensed) {
-    sensed.signals[0] = {.valid = true, .stamp = base.time, .boolean = base.time > closes_at};
-    if (base.time > dies_at) encoders.spoil(sensed);
-  });
-  const double asked = BlindBudget::most_lean + 2.0 / 3.0 * acceleration * BlindBudget::slackens_for;
-  EXPECT_EQ(course.reason, EventCode::frozen);
-  EXPECT_LT(course.fastest, 1.1 * (acceleration * dies_at + asked));
 }
 
 /// Samples that stay the same for 10 ms under way cost a little speed, as lost ones do.

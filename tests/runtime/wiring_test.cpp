@@ -1,6 +1,4 @@
-// Mistakes of the first hour on a new robot. Rates are never filled in, or have another unit. An encoder
-// counts the other way round. Signals have another clock. The robot is simulated. The host between the robot
-// and the runner makes one mistake.
+// Mistakes of the first hour on a new robot, made by the host between a simulated robot and the runner.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -43,7 +43,7 @@ bool are_of_one_cause(const Diagnostic& a, const Diagnostic& b) {
   return !name.empty() && (name == unknown_name_in(a) || name == bad_name_in(a));
 }
 
-/// What mends the name mends it where it is used. A span may hold more than the name, as quotes do.
+/// The edit of a name applies to its uses, too. A span may hold more than the name, as quotes do.
 std::optional<std::string> replacement_of_use(const Diagnostic& declared, const Span& use) {
   const std::string name = bad_name_in(declared);
   const auto length = static_cast<int>(name.size()) - static_cast<int>(std::string_view(" named ``").size());

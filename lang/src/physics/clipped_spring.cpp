@@ -1,5 +1,5 @@
-// W601 of a spring: drawn farther than s it pushes with no more than an acceleration limit leaves, or a force
-// range that bounds the sum of all rows.
+// W601 of a spring. Drawn farther than s, it pushes no harder than a limit allows: an acceleration limit, or
+// a force range that bounds the sum of all rows.
 //
 //   k s = min(m a_max, F_sum)      s: where it is clipped
 //

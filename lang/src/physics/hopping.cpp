@@ -4,8 +4,8 @@
 // the way, the base comes off as the wheels turn from the push to the way. It comes back at an angle, and the
 // wheels drive it into the wall until they have turned. That goes on for as long as it drives. In the
 // simulation walls of 5 kN/m and more are hopped along, whatever their damping. A box that gives way is not.
-// Another robot on such wheels holds against the push as a wall does, and so does a box that it holds: two of
-// them squeeze a box with 0 to 135 N in the place of 25 N. A robot on mecanum wheels gives way evenly.
+// Another robot on such wheels holds against the push as a wall does, and so does a box that it holds. Two of
+// them squeeze a box with 0 to 135 N instead of 25 N. A robot on mecanum wheels gives way evenly.
 #include <algorithm>
 
 #include "diagnostic/wordings_never.hpp"

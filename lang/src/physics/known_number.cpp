@@ -6,9 +6,8 @@
 //   group.axis.velocity         the ranges of velocities on it
 //   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
 //   speed(frame)                what `speed` and the ranges of the base's axes leave
-//   moved(frame)                that speed, or that of velocity drivers, times the time t until the task ends
-//   at the latest
-//                               on a straight way no longer than the region in force
+//   moved(frame)                that speed, or that of velocity drivers, times the time t until the latest
+//                               end of the task; on a straight way no longer than the region in force
 //   turned(frame)               the turning speed times the time
 //   elapsed, since(own task)    that time
 //   entries(task)               1 where no way leads back to it, 0 where none leads from it to this task
@@ -96,7 +95,7 @@ bool KnownNumbers::is_entered_with(const ExpressionNode& node, const Bounds& dem
   if (node.op == Op::of_frame) {
     const bool turning = calls(node, "turned");
     const double left = speed_left(before(), turning, probe_);
-    // What is faster at first goes farther, too.
+    // A base that is faster at first goes farther, too.
     return calls(node, "speed") ? meets({left, left}) : left > known.speed;
   }
   const PlannedAxis* axis =

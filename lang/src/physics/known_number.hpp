@@ -1,4 +1,4 @@
-/// What is known of a number that a condition measures, before anything runs.
+/// The bounds of a number that a condition measures, known before anything runs.
 #pragma once
 
 #include <optional>
@@ -71,7 +71,7 @@ class KnownNumbers {
   double until_ = solver::infinity;  ///< [s]
 };
 
-/// What the file sets an output to, wherever.
+/// All values to which the file sets an output.
 std::vector<const ValueText*> values_set(const CheckContext& context, const std::string& output);
 
 }  // namespace zwang::lang

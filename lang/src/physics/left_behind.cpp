@@ -20,7 +20,7 @@ void include(Bounds& bounds, double value) {
 
 constexpr Bounds nothing{solver::infinity, -solver::infinity};
 
-/// What the driver brings its axis to.
+/// The velocities to which the driver brings its axis.
 Bounds velocities_driven(const PlannedTask& plan, const PlannedAxis& driver, Probe& probe) {
   double most = plan.speed_limit(driver);
   const double base =

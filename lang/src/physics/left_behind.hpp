@@ -1,4 +1,4 @@
-/// What the tasks before a task may leave it with.
+/// The motion that the tasks before a task may leave to it.
 #pragma once
 
 #include <vector>

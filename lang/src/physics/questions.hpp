@@ -101,7 +101,7 @@ void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings,
 void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,
                        const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
 
-/// What an exit is asked about beside its own task.
+/// The tasks and the scene that an exit depends on beside its own task.
 struct AllTasks {
   std::vector<PlannedTask> plans;  ///< of all tasks, as they are written
   const std::optional<Scene>& scene;
@@ -123,8 +123,8 @@ struct SpeedLimit {
 /// Of a point on the base; infinite for points elsewhere.
 SpeedLimit most_speed(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
 SpeedLimit most_turning(const PlannedTask& plan, Probe& probe);
-/// What drivers of velocity make of the base's origin, with a tenth for overshoot. Infinite where anything
-/// else drives it, or where nothing moves it.
+/// The speed that drivers of velocity give to the base's origin, with a tenth for overshoot. Infinite where
+/// anything else drives it, or where nothing moves it.
 SpeedLimit speed_of_drivers(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
 
 /// Acceleration that the plan allows along the axis in the direction of `sign`. It counts ranges on that very

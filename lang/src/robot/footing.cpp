@@ -66,7 +66,7 @@ double Footing::lean() const {
 }
 
 bool Footing::is_on_edge() const {
-  // Of two points nobody knows what else carries the base: only a mass beside them is wrong for certain.
+  // With two points the other supports are unknown. Only a mass beside both is certainly wrong.
   if (points.size() < 3) return inside < -rounding_of_places;
   return inside <= rounding_of_places || lean() < least_lean;
 }

@@ -24,8 +24,8 @@ void apply_axes(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics);
 /// both. Then the wheel's axle is the root's y. The URDF has them then.
 std::vector<JointAxis> find_axes_of(Urdf& urdf, const std::vector<JointAxis>& given);
 
-/// Whether the joint is a swivel of this wheel by its name, or its link's: it is called a caster's or
-/// steering, or is a hinge right above the wheel.
+/// Whether the joint is a swivel of this wheel by its own name or its link's. The name is a caster's or a
+/// steering's, or the hinge stands right above the wheel.
 bool is_called_swivel_of(const UrdfJoint& joint, const UrdfJoint& wheel, const PlacedUrdf& placed);
 
 /// Wheels without an <axis>, of which nothing tells it.

@@ -53,8 +53,8 @@ bool is_held_swivel(const UrdfJoint& joint, const PlacedUrdf& placed, const Urdf
   return (has_axis && points_up(joint, placed)) || is_called_swivel_of(joint, wheel, placed);
 }
 
-/// Held wheels of one axle, as large as a wheel that turns and as low: a car's rear wheels, for example,
-/// where the URDF lets those turn that steer. A single one may be a caster's.
+/// Held wheels of one axle, as large and as low as a wheel that turns. An example are a car's rear wheels, if
+/// its URDF lets only the steered ones turn. A single one may be a caster's.
 std::vector<std::string> held_axles(const Urdf& urdf, const FoundWheels& found) {
   const PlacedUrdf placed(urdf, found.base);
   constexpr double one_line = 0.05;  // of the distance of two wheels

@@ -12,7 +12,7 @@ bool is_called_caster(const std::string& name);
 bool is_called_ball(const std::string& name);
 /// Of a joint that steers a wheel.
 bool is_called_steering(const std::string& name);
-/// What steers a car's wheel and stands above it; a suspension may be called so, too.
+/// Of a joint above a car's wheel that steers it. A suspension may have such a name, too.
 bool is_called_hinge(const std::string& name);
 /// Of a sensor that may turn to look around.
 bool is_called_sensor(const std::string& name);

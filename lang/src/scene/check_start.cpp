@@ -33,7 +33,7 @@ struct Standing {
   Span span;
 };
 
-/// What a guide carries passes what is fixed: a drawer stands in its cabinet, a door in its frame.
+/// A guided object passes fixed ones: a drawer stands in its cabinet, a door in its frame.
 bool meet(const SceneObject& one, const SceneObject& other) {
   if (one.guide && other.guide) return false;
   return (!one.guide || other.moves()) && (!other.guide || one.moves());

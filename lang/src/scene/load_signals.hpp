@@ -9,8 +9,8 @@
 
 namespace zwang::lang {
 
-/// The longest delay of a signal, of a pose that corrects the wheels, and of a robot's own state. [s]
-/// No part remembers more, and twenty ticks without a sample are a fault.
+/// [s] The longest delay of a signal, of a pose that corrects the wheels, and of a robot's own state. No
+/// part remembers more, and twenty ticks without a sample are a fault.
 inline constexpr double longest_delay = 1.9, longest_fix_delay = 0.4, longest_state_delay = 15e-3;
 
 /// Something that signals can speak of.

@@ -123,7 +123,7 @@ const RobotNumber* robot_number(const std::string& key) {
   return number_named(robot_numbers, key);
 }
 
-/// What a drawn number measures, and the values that it can have.
+/// The dimension of a drawn number, and the values that it can have.
 struct NumberRange {
   Dimension dimension;
   bool may_be_zero, may_be_negative;
