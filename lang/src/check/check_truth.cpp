@@ -55,7 +55,7 @@ Interval part_interval(const ExpressionNode& wrench) {
   return wrench.axis == static_cast<int>(WrenchPart::plane) ? Interval{0.0, infinity} : Interval{};
 }
 
-/// The file and the settings under which a condition is judged.
+/// The context in which a condition is judged.
 struct TruthOf {
   const CheckContext& context;
   const std::vector<GroupText>& groups;  ///< of the task that it stands in

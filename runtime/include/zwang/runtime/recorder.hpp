@@ -52,7 +52,7 @@ class ZWANG_EXPORT LogSink {
 ZWANG_EXPORT std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
 
 /// MCAP (https://mcap.dev). The channel `/records` has every bit of each record, in blocks and compressed
-/// chunks of at most 50 ms; docs/logs.md has their format. The channel `/tick` has 10 records a second as
+/// chunks of at most 75 ms; docs/logs.md has their format. The channel `/tick` has 10 records a second as
 /// JSON, for viewers. The context's sources are its attachments. Cut anywhere, all whole chunks before the
 /// cut can be read. Dropped records are missing among the sequence numbers, and `read_log` tells so. Wants a
 /// first column `time` in seconds.
