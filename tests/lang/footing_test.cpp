@@ -130,7 +130,9 @@ TEST(Footing, AMassNextToTheEdgeIsTold) {
     const auto footing = footing_with(std::to_string(inside * 1.1) + " 0 0.1", "ball", &code);
     EXPECT_EQ(code, expected) << inside;
     EXPECT_EQ(footing.has_value(), code != "E640");
-    if (footing) EXPECT_NEAR(footing->lean(), std::atan(inside / 0.1), 1e-4);
+    if (footing) {
+      EXPECT_NEAR(footing->lean(), std::atan(inside / 0.1), 1e-4);
+    }
   }
 }
 
