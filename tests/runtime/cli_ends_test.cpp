@@ -29,7 +29,8 @@ TEST_F(Cli, ATaskThatFailsSaysWhyInTheReportInJsonAndInTheLog) {
       "    exits:\n      - {when: moved(base_link) > 1 m and elapsed > 0.1 s, for: 0.1 s, "
       "goto: done}\n    timeout: {after: 0.2 s, goto: failed}\n";
   const std::string sentence =
-      "`stand` waited 0.200 s, its timeout (task.yaml:10): `moved(base_link) > 1 m` is false (0.000 m)";
+      "`stand` waited 0.200 s, its timeout (task.yaml:10): `moved(base_link) > 1 m` is false (0.000 m all "
+      "the time)";
   const Result r = run_task(task);
   const json why = json::parse(r.out)["why"];
   EXPECT_EQ(why["sentence"], sentence);

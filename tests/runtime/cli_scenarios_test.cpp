@@ -118,7 +118,8 @@ tasks:
 )");
   write("good.yaml", "zwang_scenario: 1\ntask: waits.yaml\nexpect: [{outcome: done}]\n");
   const std::string why =
-      "`stand` waited 0.100 s, its timeout (waits.yaml:9): `moved(base_link) > 1 m` is false (0.000 m)";
+      "`stand` waited 0.100 s, its timeout (waits.yaml:9): `moved(base_link) > 1 m` is false (0.000 m all "
+      "the time)";
   const Result r = zwang({"test", "good.yaml", "--junit", "junit.xml"});
   EXPECT_NE(r.out.find("why: " + why + "\n"), std::string::npos) << r.out;
   EXPECT_NE(read(folder_ / "junit.xml").find("`stand` waited 0.100 s, its timeout (waits.yaml:9): "),
