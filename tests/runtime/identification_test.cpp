@@ -81,8 +81,8 @@ TEST(DriveIdentification, FindsFrictionAndTorqueConstantsOfAKnownMass) {
   }
 }
 
-/// Least squares estimate a third of the truth from such encoders, and a negative mass: a column with noise
-/// is estimated too small.
+/// Least squares estimate a tenth of the torque constants from such encoders, and a negative mass: a column
+/// with noise is estimated too small.
 TEST(DriveIdentification, FindsTheMassTooFromTwoRunsWithAKnownLoad) {
   const lang::Program program = rough("mecanum");
   const double mass = program.robot.model.total_mass();
