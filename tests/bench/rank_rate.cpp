@@ -1,4 +1,5 @@
-// How many cells a second rank 0 of an MPI job hands out and keeps, when they take no time at all:
+// The number of cells a second that rank 0 of an MPI job hands out and keeps, if a cell takes no time.
+//
 //   mpirun --mca btl tcp,self -n 2 rank_rate LIBRARY     with LIBRARY the path of zwang_mpi.so
 // The other rank stands for sixty-four: so many records are on their way at once.
 #include <chrono>

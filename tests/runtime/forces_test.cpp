@@ -230,9 +230,10 @@ TEST(BuildUp, WhatWasAddedUpIsNoSpeedBeyondTheTarget) {
   }
 }
 
-// Held at the creep c until it presses with 6.5 m v/T, then rubbed by 5 m v/T: of 0.5 kg at 20 mm/s that is
-// stiction of 1.3 N, and 1 N of friction. With t_b = 4 T, l = 1/(2 T) and e = ds - v,
-//   e = (e0 + (1.5 v/T + l e0) t) exp(-l t),   e0 = c - v;   0.45 v at most where c is 0: 29 mm/s.
+// The base is held at the creep c until it presses with 6.5 m v/T. Then friction of 5 m v/T rubs it. For 0.5 kg
+// at 20 mm/s these are stiction of 1.3 N and friction of 1 N. With t_b = 4 T, l = 1/(2 T) and e = ds - v,
+//   e = (e0 + (1.5 v/T + l e0) t) exp(-l t),   e0 = c - v.
+// If c is 0, e is 0.45 v at most: 29 mm/s.
 TEST(BuildUp, BreaksAwayFromStictionGently) {
   // Slow, so that the motors of this base make the stiction.
   const double m = mass_along_x(), v = 0.005, T = 0.05, l = 1.0 / (2.0 * T);
