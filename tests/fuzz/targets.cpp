@@ -166,7 +166,7 @@ void condition(std::string_view bytes) {
     CheckContext context = host.context_for(diagnostics);
     const auto checked = check_condition(context, text, host.file.tasks[0].groups);
     require(checked.has_value() == !diagnostics.has_errors(), "a condition is good or complained of");
-    if (checked) check_is_open(context, *checked);
+    if (checked) check_is_open(context, *checked, host.file.tasks[0].groups);
   }
   judge(diagnostics, !diagnostics.has_errors());
 }

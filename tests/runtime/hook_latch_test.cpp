@@ -34,8 +34,6 @@ Course pull_in_a_dock(int holds, double open_at, double stale_from) {
       });
 }
 
-constexpr double never = 1e9;  // [s]
-
 TEST(HookLatch, TellsADockFromDeadEncoders) {
   EXPECT_EQ(pull_in_a_dock(-1, never, never).reason, EventCode::frozen) << "nobody says that a hook holds";
   EXPECT_EQ(pull_in_a_dock(2, never, never).reason, EventCode::none);

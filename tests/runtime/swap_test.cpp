@@ -18,7 +18,7 @@ namespace {
 
 using lang::SignalType;
 using std::string_literals::operator""s;
-using test::shipped_program;
+using zwang::test::shipped_program;
 
 /// Drives on, and reads signals of these names and types, seen from the base.
 lang::Program reading(const std::vector<std::pair<std::string, lang::SignalType>>& signals,
