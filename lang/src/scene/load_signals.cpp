@@ -145,6 +145,10 @@ Noises noises_of(const SceneSignal& signal) {
 }
 
 void parse_noises(MapReader& map, SceneSignal& signal, Diagnostics& diagnostics) {
+  if (!signal.source_span.exists()) {  // the signal is refused, and nothing is known of its noise
+    for (const char* key : {"noise", "angle_noise"}) map.optional(key);
+    return;
+  }
   const Noises noises = noises_of(signal);
   for (const auto& [key, is_measured, other] : {std::tuple{"noise", noises.of_number, "angle_noise"},
                                                 std::tuple{"angle_noise", noises.of_angle, "noise"}}) {
@@ -208,7 +212,7 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
     given = node;
     signal.kind = source.kind;
   }
-  if (given != nullptr) signal.source_span = given->span;
+  if (found == 1) signal.source_span = given->span;
   if (found == 1 && signal.kind == SceneSignalKind::script) {
     parse_script(*given, signal, diagnostics);
   } else if (found == 1 && signal.kind == SceneSignalKind::wrench) {
