@@ -84,7 +84,7 @@ std::string limits_table(const runtime::Runner& runner, const lang::Diagnostics&
   return "limits\n" + table.text();
 }
 
-std::string truth_table(const RunReport& report) {
+std::string truth_table(const RunReport& report, const lang::Diagnostics& diagnostics) {
   std::string text = "truth, as the plant measured it\n";
   Table table({false, false});
   for (const ObjectReport& o : report.objects) {
@@ -111,6 +111,10 @@ std::string truth_table(const RunReport& report) {
   if (report.hand.began) {
     table.add({"hands", "push the robot from " + seconds(*report.hand.began) + " on, with " +
                             with_unit(report.hand.most, "N") + " at most"});
+  }
+  for (const FaultReport& fault : report.faults) {
+    table.add(
+        {"fault", "of the scene, from " + seconds(fault.at) + " on  " + place(diagnostics, fault.span)});
   }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
@@ -296,7 +300,7 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
             limits_table(*chapter.runner, *chapter.diagnostics) + "\n";
   }
   text += transitions_table(runner, diagnostics) + "\n" + events_table(runner) +
-          limits_table(runner, diagnostics) + "\n" + truth_table(report) + "\n";
+          limits_table(runner, diagnostics) + "\n" + truth_table(report, diagnostics) + "\n";
   text += "log    ";
   for (const std::string& log : report.logs) text += log + ", ";
   text += std::to_string(report.records) + " records";
@@ -327,6 +331,8 @@ ordered_json story(const RunReport& report, const runtime::Runner& runner,
                         {"asked", asked},
                         {"truth", json_truth(report)},
                         {"seed", report.seed}};
+  for (const FaultReport& fault : report.faults)
+    whole["faults"].push_back({{"at", fault.at}, {"line", fault.span.begin.line}});
   if (!report.because.empty()) whole["because"] = report.because;
   if (report.may_still_move) whole["may_still_move"] = true;
   if (report.why) whole["why"] = json_of(*report.why);

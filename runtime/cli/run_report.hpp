@@ -31,6 +31,12 @@ struct Chapter {
   const lang::Diagnostics* diagnostics = nullptr;  ///< of its files
 };
 
+/// A fault of the scene that had begun.
+struct FaultReport {
+  double at = 0.0;  ///< [s]
+  lang::Span span;
+};
+
 struct RunReport {
   std::string outcome;          ///< done, failed, stopped, fallen, diverged; the first robot's
   std::string because;          ///< of a stop; empty otherwise
@@ -53,6 +59,7 @@ struct RunReport {
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the base, as the plant has it
   runtime::BaseTruth base;
   HandReport hand;
+  std::vector<FaultReport> faults;
 };
 
 /// The name of a task; of `done` and `failed`, too.

@@ -110,11 +110,16 @@ void WatchedRun::conclude(PlantStatus status, double elapsed) {
     report.because = "the plant " + report.outcome;
     report.why.reset();
   }
+  for (const lang::Fault& fault : parts_.program.scene->faults) {
+    if (fault.robot.empty() && fault.at < elapsed) report.faults.push_back({fault.at, fault.span});
+  }
   if (status == PlantStatus::ok && truth.base.fallen) {
     report.outcome = "fallen";
     report.because = describe_fall(truth.base);
     if (runner.state() == runtime::RunState::running)
       report.because += ", in `" + task_name(runner.scheduler(), runner.scheduler().task()) + "`";
+    if (!report.faults.empty())
+      report.because += ", after the scene's fault of " + with_unit(report.faults.back().at, "s", 4);
     report.why.reset();
   }
   report.elapsed = elapsed;

@@ -106,7 +106,8 @@ TEST_F(Cli, ABaseThatFallsEndsWithOneAndIsNeverDone) {
   EXPECT_EQ(j["outcome"], "fallen");
   const std::string verdict = j["verdict"];
   EXPECT_NE(verdict.find(": the base tipped over its front, pitch "), std::string::npos) << verdict;
-  EXPECT_TRUE(verdict.ends_with(" deg, in `stand`")) << verdict;
+  EXPECT_TRUE(verdict.ends_with(" deg, in `stand`, after the scene's fault of 0.100 s")) << verdict;
+  EXPECT_EQ(j["faults"], json::parse(R"([{"at": 0.1, "line": 4}])"));
   EXPECT_GT(j["truth"]["base"]["pitch"].get<double>(), 5.0 * std::numbers::pi / 180.0);
   EXPECT_GT(j["truth"]["base"]["fallen"].get<double>(), 0.1);
 }

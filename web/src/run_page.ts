@@ -10,7 +10,7 @@ import { SpaceView } from './space';
 import { events, facts, margins, warnings, why } from './tables';
 import { TopView } from './top';
 
-export const symbols: Record<string, string> = { done: '✓', failed: '✗', stopped: '■', diverged: '✗' };
+export const symbols: Record<string, string> = { done: '✓', failed: '✗', stopped: '■', fallen: '✗', diverged: '✗' };
 
 function verdict(run: Run): HTMLElement {
   const { report, facts: known, log, damage } = run.data;

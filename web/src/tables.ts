@@ -76,7 +76,7 @@ export function margins(run: Run, clock: Moments, onLine: OnLine, onCurve: (name
 
 export function events(run: Run, clock: Moments): HTMLElement {
   const all = run.data.report?.events ?? run.data.events;
-  if (!all.length) return h('p', {}, 'None: nothing went wrong that the guard sees.');
+  if (!all.length) return h('p', {}, 'None of the guard. The first line says what the robot met.');
   return table(['time', 'event', 'signal', 'value'], all.map((one) => h('tr', {},
     h('td', {}, h('button', { class: 'link', onclick: () => clock.show(one.time - run.data.begin) }, seconds(one.time - run.data.begin))),
     cell(one.code), cell(one.signal), cell(one.value === null || one.value === undefined ? '–' : String(Number(one.value.toPrecision(5))), 'figure'))));

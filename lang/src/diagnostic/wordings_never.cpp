@@ -32,7 +32,9 @@ std::string stays(const Kept& kept) {
   const std::string by = kept.by.empty() ? "this base keeps it so" : ticked(kept.by) + " keeps it so";
   const std::string now =
       kept.parameter.empty() ? "" : " with the value that `" + kept.parameter + "` has now";
-  return "`" + kept.what + "` stays " + within(kept.low, kept.high, kept.unit) + ", as " + by + now;
+  const std::string in_time =
+      std::isfinite(kept.time) ? " in the " + figure(kept.time, "s") + " until the task ends" : "";
+  return "`" + kept.what + "` stays " + within(kept.low, kept.high, kept.unit) + ", as " + by + now + in_time;
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ struct Kept {
   std::string by;
   std::string parameter;  ///< that an end of the range is; empty: none
   Span range;
+  double time = solver::infinity;  ///< [s] of a way: for so long it goes at most
 };
 Diagnostic never_true(const Span& span, const Kept& kept);
 /// `or_entered`: the task may begin outside of the range, too.

@@ -76,7 +76,7 @@ class ExitQuestion {
   static wording::Kept kept_by(const Found& found) {
     const Known& known = found.known;
     return {found.what, found.unit,      known.bounds.low, known.bounds.high,
-            known.by,   known.parameter, known.span};
+            known.by,   known.parameter, known.span,       known.time};
   }
 
   const std::vector<GroupText>& groups() const {

@@ -146,6 +146,7 @@ Known KnownNumbers::known_way(const ExpressionNode& node) {
     const SpeedLimit& limit = driven.most < most.most ? driven : most;
     known = {{0.0, limit.most * until_}, limit.path, limit.span};
     known.speed = limit.most;
+    known.time = until_;
   }
   if (!place_of(context_, node.index).is_known || place_of(context_, node.index).frame.body != 0)
     return known;
@@ -162,6 +163,7 @@ Known KnownNumbers::known_turn(const ExpressionNode& node) {
   const SpeedLimit limit = most_turning(plan_, probe_);
   Known known{{0.0, limit.most * until_}, limit.path, limit.span};
   known.speed = limit.most;
+  known.time = until_;
   return known;
 }
 

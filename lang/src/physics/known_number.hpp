@@ -22,6 +22,7 @@ struct Known {
   bool is_entered_anywhere = false;  ///< nobody knows where the task begins
   std::string parameter;             ///< that an end of the range is; empty: none
   double speed = solver::infinity;   ///< of a way: how fast it goes. [m/s] or [rad/s]
+  double time = solver::infinity;    ///< [s] of a way: for so long it goes at most
 };
 
 /// Of the plan's task, or of `always`.
