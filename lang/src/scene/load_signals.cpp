@@ -145,10 +145,6 @@ Noises noises_of(const SceneSignal& signal) {
 }
 
 void parse_noises(MapReader& map, SceneSignal& signal, Diagnostics& diagnostics) {
-  if (!signal.source_span.exists()) {  // the signal is refused, and nothing is known of its noise
-    for (const char* key : {"noise", "angle_noise"}) map.optional(key);
-    return;
-  }
   const Noises noises = noises_of(signal);
   for (const auto& [key, is_measured, other] : {std::tuple{"noise", noises.of_number, "angle_noise"},
                                                 std::tuple{"angle_noise", noises.of_angle, "noise"}}) {
@@ -163,11 +159,10 @@ void parse_noises(MapReader& map, SceneSignal& signal, Diagnostics& diagnostics)
   if (noises.of_angle) signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
 }
 
-/// `noise`, `bias`, `angle_noise`, `delay`, `rate`, `dropouts`.
+/// `bias`, `delay`, `rate`, `dropouts`.
 void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagnostics& diagnostics) {
   const bool is_force = signal.kind == SceneSignalKind::force;
   const bool is_wrench = signal.kind == SceneSignalKind::wrench;
-  parse_noises(map, signal, diagnostics);
   if (const Node* node = is_wrench ? map.optional("bias") : nullptr) {
     const auto bias = parse_vector(*node, dimension::force, 3, 3, map.what() + "'s `bias`", diagnostics);
     if (bias) signal.force_bias = {(*bias)[0], (*bias)[1], (*bias)[2]};
@@ -223,6 +218,11 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   if (signal.kind == SceneSignalKind::travel || signal.kind == SceneSignalKind::force ||
       signal.kind == SceneSignalKind::wrench)
     parse_threshold(map, signal, diagnostics);
+  if (found == 1) {
+    parse_noises(map, signal, diagnostics);
+  } else {  // the signal is refused, and nothing is known of its noise
+    for (const char* key : {"noise", "angle_noise"}) map.optional(key);
+  }
   parse_quality(map, signal, longest_delay, diagnostics);
   // An unknown key may have been the source's.
   if (found > 1 || (found == 0 && !map.has_unread_keys()))
@@ -320,7 +320,10 @@ StateNoise parse_state_noise(const Node& node, Diagnostics& diagnostics) {
     noise.wheels_only = true;
     noise.fix.emplace();
     noise.fix->kind = SceneSignalKind::pose;
-    if (quality.is_mapping()) parse_quality(quality, *noise.fix, longest_fix_delay, diagnostics);
+    if (quality.is_mapping()) {
+      parse_noises(quality, *noise.fix, diagnostics);
+      parse_quality(quality, *noise.fix, longest_fix_delay, diagnostics);
+    }
     quality.finish();
   }
   map.finish();
