@@ -8,7 +8,7 @@ namespace zwang::runtime {
 namespace {
 
 /// Two ticks where the robot starts: the first one switches into the task, the second one blends.
-void take_two_ticks(Runner& runner, const lang::Program& program) noexcept {
+void take_two_ticks(Runner& runner, const lang::Program& program) {
   Sensed sensed(program);
   sensed.state = lang::start_state(program.robot);
   sensed.base_measured = true;
