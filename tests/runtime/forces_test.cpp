@@ -230,8 +230,8 @@ TEST(BuildUp, WhatWasAddedUpIsNoSpeedBeyondTheTarget) {
   }
 }
 
-// The base is held at the creep c until it presses with 6.5 m v/T. Then friction of 5 m v/T rubs it. For 0.5 kg
-// at 20 mm/s these are stiction of 1.3 N and friction of 1 N. With t_b = 4 T, l = 1/(2 T) and e = ds - v,
+// The base is held at the creep c until it presses with 6.5 m v/T. Then friction of 5 m v/T rubs it. For 0.5
+// kg at 20 mm/s these are stiction of 1.3 N and friction of 1 N. With t_b = 4 T, l = 1/(2 T) and e = ds - v,
 //   e = (e0 + (1.5 v/T + l e0) t) exp(-l t),   e0 = c - v,
 // if q keeps what it built up. Beyond v it fades, so the base is slower than that.
 TEST(BuildUp, BreaksAwayFromStictionGently) {
