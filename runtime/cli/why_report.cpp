@@ -65,8 +65,8 @@ std::string why_table(const runtime::Why& why, const lang::Diagnostics& diagnost
   for (const WaitedExit& exit : why.waited.exits) {
     table.add({exit.column, to_string(exit.verdict), "-> " + exit.target,
                "true " + (exit.times > 1 ? std::to_string(exit.times) + " times, " : std::string()) + "for " +
-                   with_unit(exit.longest, "s") + " at most, needed " +
-                   with_unit(exit.needed, "s") + "  (" + place(diagnostics, exit.span) + ")"});
+                   with_unit(exit.longest, "s") + " at most, needed " + with_unit(exit.needed, "s") + "  (" +
+                   place(diagnostics, exit.span) + ")"});
     for (const WaitedTerm& term : exit.terms)
       table.add({"  " + term.text, to_string(term.verdict), "", reading(term)});
   }

@@ -66,9 +66,9 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
   return world.plant.follow(side.command(world.sensed.time + shift));
 }
 
-/// Stands still, and says so, until a command comes. A peer may be found at any moment, so each sample repeats
-/// the values that have not changed. A clock of its own runs before the world does, in steps of any size, so
-/// that the other side can tick.
+/// Stands still, and says so, until a command comes. A peer may be found at any moment, so each sample
+/// repeats the values that have not changed. A clock of its own runs before the world does, in steps of any
+/// size, so that the other side can tick.
 void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, Happenings& happenings) {
   if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
   const double period = robot.control_period;
@@ -90,8 +90,8 @@ void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, H
 
 /// With a clock of its own the world stands while a command is due, so that a busy machine is slow and not
 /// late. A message that was lost may have both sides wait for each other: the world makes one step before the
-/// other side takes the robot for dead. A controller that is silent for `longest_wait` is not waited for until
-/// its next command.
+/// other side takes the robot for dead. A controller that is silent for `longest_wait` is not waited for
+/// until its next command.
 class InStep {
  public:
   InStep(const lang::Connection& connection, double period)

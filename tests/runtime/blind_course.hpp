@@ -71,7 +71,7 @@ inline void hold(PlanarBase& base, const Eigen::Vector3d& V) {
 }
 
 inline constexpr double press = 20.0;  // [N]
-inline constexpr double never = 1e9;  // [s]
+inline constexpr double never = 1e9;   // [s]
 
 inline lang::Program presses() {
   lang::Program program_ = program({task("press", {drive("press.x", Axis::x, Quantity::force, press),

@@ -24,8 +24,8 @@ namespace zwang::runtime {
 ///    `entry` after its onset out of quiet, and keeps it `closely` for `dwell`. Where a hit was less than
 ///    `after_a_hit` before, the force also has to drive the robot by `least_way`. A base that turns about a
 ///    corner at the wall leans on it evenly, with the command of the wheel beside it, and that force does no
-///    work. An error of the mass seems to do some, so `own_way` of the rim's way counts as well. The force of a padded wall takes work, first by its damper, then by its spring, and is even in
-///    between.
+///    work. An error of the mass seems to do some, so `own_way` of the rim's way counts as well. The force of
+///    a padded wall takes work, first by its damper, then by its spring, and is even in between.
 ///  - Place. Where the wheel rolls on by `travel`, a contact between the robot and a standing object gives
 ///    way or grows. A motor's force keeps its direction and size `closely` meanwhile, farther than a spring
 ///    of the same depth does (ContactDepth). Its onset does not matter. So a motor that failed without a

@@ -58,20 +58,20 @@ class RunawayWatch {
   std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
                             const ContactDepth& contact, bool is_pushed, bool blends = false) noexcept;
 
-  static constexpr double margin = 0.01;       ///< [m/s] beyond a speed that is driven or allowed
-  static constexpr double turn_margin = 0.05;  ///< [rad/s] `margin` of a rotation
-  static constexpr double share = 0.1;         ///< of the bound, as the margin where that is more
-  static constexpr double driven = 0.5;        ///< of these margins, where a steady force drives
-  static constexpr double far = 0.2;          ///< [m/s] the margin beyond which the source does not matter
-  static constexpr double turn_far = 1.0;     ///< [rad/s] `far` of a rotation
-  static constexpr double share_far = 1.0;    ///< of the bound, as `far` where that is more
-  static constexpr double steadily = 0.15;    ///< of a force: the largest change of a steady one
-  static constexpr double explained = 0.8;    ///< of the work done: the least that one motor has to give
-  static constexpr double look_every = 0.01;  ///< [s]
-  static constexpr double memory = 1.0;       ///< [s] of the largest T: longer than contacts keep energy
-  static constexpr double quick = 0.01;       ///< [s] of the rates' low pass
-  static constexpr double growth = 1.01;      ///< of T from look to look
-  static constexpr int dwell = 5;             ///< looks: longer than the hit of another robot
+  static constexpr double margin = 0.01;        ///< [m/s] beyond a speed that is driven or allowed
+  static constexpr double turn_margin = 0.05;   ///< [rad/s] `margin` of a rotation
+  static constexpr double share = 0.1;          ///< of the bound, as the margin where that is more
+  static constexpr double driven = 0.5;         ///< of these margins, where a steady force drives
+  static constexpr double far = 0.2;            ///< [m/s] the margin beyond which the source does not matter
+  static constexpr double turn_far = 1.0;       ///< [rad/s] `far` of a rotation
+  static constexpr double share_far = 1.0;      ///< of the bound, as `far` where that is more
+  static constexpr double steadily = 0.15;      ///< of a force: the largest change of a steady one
+  static constexpr double explained = 0.8;      ///< of the work done: the least that one motor has to give
+  static constexpr double look_every = 0.01;    ///< [s]
+  static constexpr double memory = 1.0;         ///< [s] of the largest T: longer than contacts keep energy
+  static constexpr double quick = 0.01;         ///< [s] of the rates' low pass
+  static constexpr double growth = 1.01;        ///< of T from look to look
+  static constexpr int dwell = 5;               ///< looks: longer than the hit of another robot
   static constexpr int remembered_looks = 100;  ///< memory / look_every
 
  private:
