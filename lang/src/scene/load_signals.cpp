@@ -125,7 +125,8 @@ void parse_threshold(MapReader& map, SceneSignal& signal, Diagnostics& diagnosti
   }
 }
 
-/// What a signal has a noise of. A script's values are given, and a latch is true or false.
+/// The quantities of a signal that noise applies to. A script's values are given, and a latch is true or
+/// false.
 struct Noises {
   bool of_number = false, of_angle = false;
 };

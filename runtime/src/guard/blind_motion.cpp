@@ -93,7 +93,7 @@ double BlindMotion::norm_of_row(std::size_t joint) const noexcept {
   return T_.row(static_cast<Eigen::Index>(joint)).head(m_).norm();
 }
 
-/// What an arm's joints bear, and on which ends they rest.
+/// The weights that an arm's joints bear, and the ends on which they rest.
 void BlindMotion::find_weights(const solver::State& state) noexcept {
   if (part_ != Part::arm) return;
   for (DrivenJoint& driven : joints_) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "zwang/lang/object_outline.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -50,26 +52,20 @@ ContactPlace contact_place(const std::vector<Vector3>& robot, const std::vector<
   return {0.5 * (low + high), std::atan2(best->out.y(), best->out.x())};
 }
 
-std::vector<Vector3> outline_of(const lang::SceneObject& object, double height) {
-  constexpr int corners_of_a_round = 24;
-  const auto [a, b, c] = object.size;
-  std::vector<Vector3> corners;
-  if (object.shape == lang::ShapeKind::cylinder) {
-    for (int i = 0; i < corners_of_a_round; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / corners_of_a_round;
-      corners.emplace_back(a * std::cos(angle), a * std::sin(angle), 0.0);
-    }
-  } else if (object.shape == lang::ShapeKind::wall) {  // its face is at its origin, along y
-    corners = {{0.0, -a / 2.0, 0.0}, {b, -a / 2.0, 0.0}, {b, a / 2.0, 0.0}, {0.0, a / 2.0, 0.0}};
-  } else {
-    corners = {{-a / 2.0, -b / 2.0, 0.0},
-               {a / 2.0, -b / 2.0, 0.0},
-               {a / 2.0, b / 2.0, 0.0},
-               {-a / 2.0, b / 2.0, 0.0}};
+std::vector<Vector3> touched_outline(const lang::SceneObject& object, double height) {
+  if (object.shape != lang::ShapeKind::cylinder) {
+    const std::vector<Vector3> cut = lang::outline_of(object, height);
+    return cut.empty() ? lang::outline_of(object, 0.0) : cut;  // one that ends below it is met by an arm
   }
-  // What leans stands aside at this height: its upright axis u goes through height u / u_z.
-  const Vector3 upright = solver::rotation_from_rpy(object.roll, object.pitch, 0.0).col(2);
-  for (Vector3& corner : corners) corner += Vector3(upright.x(), upright.y(), 0.0) * (height / upright.z());
+  // A round one that leans stands aside at this height: its upright axis u goes through height u / u_z.
+  const Vector3 upright = lang::lean_of(object).col(2);
+  const Vector3 aside = Vector3(upright.x(), upright.y(), 0.0) * (height / upright.z());
+  constexpr int corners_of_a_round = 24;
+  std::vector<Vector3> corners;
+  for (int i = 0; i < corners_of_a_round; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners_of_a_round;
+    corners.push_back(aside + object.size[0] * Vector3(std::cos(angle), std::sin(angle), 0.0));
+  }
   return corners;
 }
 

@@ -20,6 +20,6 @@ ContactPlace contact_place(const std::vector<solver::Vector3>& robot,
                            const std::vector<solver::Vector3>& object);
 
 /// Counter-clockwise, in the object's own axes, where it is met at `height` [m].
-std::vector<solver::Vector3> outline_of(const lang::SceneObject& object, double height);
+std::vector<solver::Vector3> touched_outline(const lang::SceneObject& object, double height);
 
 }  // namespace zwang::runtime

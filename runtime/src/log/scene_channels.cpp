@@ -57,7 +57,8 @@ class SceneChannels : public LogChannels {
       const double height = foxglove::height_of_contact(program_.robot);
       for (const lang::SceneObject& object : program_.scene->objects) {
         add_mover(object.name);
-        add_touched(object.name, planar(object.at[0], object.at[1], object.yaw), outline_of(object, height));
+        add_touched(object.name, planar(object.at[0], object.at[1], object.yaw),
+                    touched_outline(object, height));
       }
       for (const lang::SceneRobot& robot : program_.scene->robots) {
         add_mover(robot.name);
