@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "plant/caster_friction.hpp"
-#include "plant/object_geometry.hpp"
 #include "plant/object_guide.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 
@@ -114,17 +113,6 @@ TEST(Guides, AGateMeetsAPostInItsWay) {
 // Beside the hinge it is the frame: nothing of it is in the way.
 TEST(Guides, AGateDoesNotMeetItsFrame) {
   EXPECT_GT(opened_beside(post_at(1.0 + half_thickness + post_radius + 0.01, 0.55)), 1.4);
-}
-
-// The nearest points of two circles, of a circle and a side, of two sides.
-TEST(Guides, TheGapOfTwoOutlinesIsTheirDistance) {
-  const lang::SceneObject gate = gate_on_a_hinge();
-  EXPECT_NEAR(gap_between(post_at(0.0, 0.0), post_at(3.0, 4.0), 0.1), 5.0 - 2.0 * post_radius, 1e-12);
-  EXPECT_NEAR(gap_between(gate, post_at(1.5, 0.3), 0.1), 0.5 - half_thickness - post_radius, 1e-12);
-  lang::SceneObject other = gate;
-  other.at = {1.3, 0.2};
-  EXPECT_NEAR(gap_between(gate, other, 0.1), 0.3 - 2.0 * half_thickness, 1e-12);
-  EXPECT_LT(gap_between(gate, gate, 0.1), 0.0);
 }
 
 TEST(CasterFriction, TakesTheWholeFrictionStraightAhead) {

@@ -5,9 +5,9 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "diagnostic/wordings_statics.hpp"
 #include "scene/outline.hpp"
-#include "scene/overlap.hpp"
 #include "zwang/lang/footing.hpp"
 #include "zwang/lang/object_outline.hpp"
+#include "zwang/lang/overlap.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/program.hpp"
 

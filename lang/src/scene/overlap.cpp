@@ -3,12 +3,14 @@
 //
 //   depth = least over the edges' outward normals n of   max_a n'a - min_b n'b
 //
-// and is how far one has to move for them to part. A circle is its centre's depth plus its radius.
-#include "scene/overlap.hpp"
+// and is how far one has to move for them to part. Where it is below 0 they are apart: a corner of one is
+// nearest to an edge of the other. A circle is its centre's depth plus its radius.
+#include "zwang/lang/overlap.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "scene/outline.hpp"
 #include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
 
@@ -43,6 +45,13 @@ Vector3 centre_of(const SceneObject& object) {
   return {pose.at[0], pose.at[1], 0.0};
 }
 
+/// [m] From the corners of `a` to the edges of `b`.
+double way_between(const Outline& a, const Outline& b) {
+  double least = solver::infinity;
+  for (const Vector3& corner : a) least = std::min(least, plane::distance_to_edges(b, corner));
+  return least;
+}
+
 double depth(const Outline& a, const Vector3& centre, double radius) {
   const double inside = depth_by_edges(a, {centre});
   if (inside >= 0.0) return inside + radius;
@@ -56,7 +65,8 @@ Outline outline_at_start(const SceneObject& object, double height) {
 }  // namespace
 
 double overlap(const Outline& a, const Outline& b) {
-  return std::min(depth_by_edges(a, b), depth_by_edges(b, a));
+  const double depth = std::min(depth_by_edges(a, b), depth_by_edges(b, a));
+  return depth >= 0.0 ? depth : -std::min(way_between(a, b), way_between(b, a));
 }
 
 double overlap(const Outline& outline, const SceneObject& object, double height) {

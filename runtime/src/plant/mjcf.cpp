@@ -9,6 +9,7 @@
 #include "pair_friction.hpp"
 #include "refuse.hpp"
 #include "zwang/lang/object_outline.hpp"
+#include "zwang/lang/overlap.hpp"
 
 namespace zwang::runtime {
 
@@ -218,7 +219,9 @@ class MjcfWriter {
     const auto is_free = [](const SceneObject& object) { return object.moves() && !object.guide; };
     const bool is_guided = one.guide || two.guide;
     if (!is_guided || is_free(one) || is_free(two)) return true;
-    return gap_between(one, two, robots_.front().robot.bumper_height) > clearance;
+    const double height = robots_.front().robot.bumper_height;
+    if (!lang::reaches(one, height) || !lang::reaches(two, height)) return true;
+    return lang::overlap(one, two, height) < -clearance;
   }
 
   /// Ties that hold nothing until the plant puts one in force: the hook's origin to a point of the object.

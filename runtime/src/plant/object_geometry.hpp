@@ -17,10 +17,6 @@ struct ObjectGeometry {
 /// Throws std::invalid_argument on an object without a size.
 ObjectGeometry geometry_of(const lang::SceneObject& object);
 
-/// [m] How far two outlines stand apart, as the objects were written, at `height`: a lower bound; 0 or below
-/// where they touch. Infinite where one of them does not reach that height.
-double gap_between(const lang::SceneObject& a, const lang::SceneObject& b, double height);
-
 /// Where a scripted object stands at a time: at, yaw, and their rates.
 struct ScriptedPose {
   std::array<double, 2> at{}, velocity{};
