@@ -190,8 +190,9 @@ void throw_as(const py::object& type, const LoadError& error) {
 LoadError::LoadError(lang::Diagnostics given)
     : std::runtime_error(rendered(given)), diagnostics(std::move(given)) {}
 
-void bind_language(py::module_& module) {
-  using py::arg;
+namespace {
+
+void bind_diagnostic(py::module_& module) {
   py::class_<Edit>(module, "Edit", "A text for a place of a file. The end is exclusive.")
       .def_readonly("path", &Edit::path)
       .def_readonly("line", &Edit::line, "from 1")
@@ -218,7 +219,9 @@ void bind_language(py::module_& module) {
         return d.path + ":" + std::to_string(d.line) + ":" + std::to_string(d.column) + ": " + d.severity +
                " " + d.code + ": " + d.message;
       });
+}
 
+void bind_program(py::module_& module) {
   py::class_<lang::Program>(module, "_Program")
       .def_readonly("path", &lang::Program::path)
       .def_property_readonly(
@@ -240,6 +243,14 @@ void bind_language(py::module_& module) {
       });
   py::class_<ReadProgram, lang::Program>(module, "Program",
                                          "A task file, checked against its robot and scene. Immutable.");
+}
+
+}  // namespace
+
+void bind_language(py::module_& module) {
+  using py::arg;
+  bind_diagnostic(module);
+  bind_program(module);
 
   static py::object error = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "zwang.Error", "A file that cannot be run; `diagnostics` says why.", PyExc_ValueError, nullptr));

@@ -6,6 +6,7 @@ import { cpSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:f
 import { createRequire } from 'node:module';
 import { tooFaint } from './contrast.mjs';
 import { checkLeaning, checkPath } from './scene.mjs';
+import { checkScrub } from './scrub.mjs';
 
 const [zwang, specs, folder, chromium, only = ''] = process.argv.slice(2);
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
@@ -332,35 +333,6 @@ expect:
   await close();
 }
 
-/** One frame lays the page out once, whatever listens to the time; the view in space rests sharp, at the log's pose. */
-async function checkScrub(made) {
-  const { page, close } = await open(made.path);
-  const space = page.locator('.views canvas').nth(1);
-  const [time, x, y, yaw] = ['time', 'truth.base.x', 'truth.base.y', 'truth.base.yaw'].map(made.csv.column);
-  const i = Math.round(0.6 * (time.length - 1));
-  const session = await page.context().newCDPSession(page);
-  await session.send('Performance.enable');
-  const layouts = async () => (await session.send('Performance.getMetrics')).metrics.find((one) => one.name === 'LayoutCount').value;
-  await space.and(page.locator('[data-ratio="2"]')).waitFor({ timeout: 60000 });
-  const before = await layouts();
-  const frames = 40;
-  await page.evaluate(([end, count]) => new Promise((resolve) => {
-    const step = (k) => {
-      window.zwang.clock.show((end * k) / count);
-      requestAnimationFrame(() => (k < count ? step(k + 1) : resolve()));
-    };
-    step(1);
-  }), [time[i] - time[0], frames]);
-  const each = (await layouts() - before) / frames;
-  assert.ok(each < 2, `${each} layouts a frame`);
-  for (let tries = 0; tries < 600; ++tries) {
-    const pose = (await space.getAttribute('data-pose')).split(' ').map(Number);
-    if (await space.getAttribute('data-ratio') === '2' && [x, y, yaw].every((column, k) => Math.abs(pose[k] - column[i]) < 2e-3)) return close();
-    await page.waitForTimeout(100);
-  }
-  assert.fail('the view in space does not come to rest at the pose of the log');
-}
-
 async function checkHostile() {
   const text = readFileSync(`${specs}/laws/fence.yaml`, 'utf8');
   mkdirSync(`${folder}/hostile`, { recursive: true });
@@ -391,7 +363,7 @@ const steps = {
     assert.equal(await page.evaluate(() => window.zwang.clock.time), unseen.report.why.time);
     await close();
   },
-  'scrub': () => checkScrub(wall),
+  'scrub': () => checkScrub(open, wall),
   'a range at its limit': () => checkRangeAtLimit(wall),
   'use': () => checkUse(wall),
   'look of the wall': () => checkLook(wall, [[360, 'light'], [800, 'light'], [1600, 'light'], [1600, 'dark']]),

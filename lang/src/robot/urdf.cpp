@@ -236,6 +236,47 @@ auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
   return it == items.end() ? nullptr : &*it;
 }
 
+void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>& elements,
+                const UrdfFindings& findings, Urdf& urdf) {
+  for (const auto& [name, link] : model.links_) {
+    UrdfLink result;
+    result.name = name;
+    result.span = span_of(elements, "link", name);
+    for (const auto& shape : link->collision_array) {
+      if (shape && shape->geometry) add_corners(*shape->geometry, to_pose(shape->origin), result.corners);
+    }
+    find_round_shape(link->collision_array, result);
+    if (!result.radius) find_round_shape(link->visual_array, result);
+    if (link->inertial && !findings.weightless.contains(name))
+      result.inertia = to_inertia(*link->inertial, findings.point_masses.contains(name));
+    urdf.links.push_back(std::move(result));
+  }
+}
+
+/// In the order of the text, which is the author's order of joints.
+void read_joints(const urdf::ModelInterface& model, const std::vector<XmlElement>& elements,
+                 const std::vector<std::string>& turned, Urdf& urdf) {
+  std::set<std::string> done;
+  const std::map<int, UrdfMimic> mimics = find_mimics(elements);
+  const std::set<std::string> driven = find_transmissions(elements);
+  const std::map<int, solver::Vector3> axes = find_axes(elements);
+  for (const XmlElement& element : elements) {
+    if (element.parent != 0 || element.name != "joint") continue;
+    const auto joint = model.joints_.find(element.find("name")->value);
+    if (joint == model.joints_.end() || !done.insert(joint->first).second) continue;
+    urdf.joints.push_back(to_joint(*joint->second));
+    urdf.joints.back().span = element.span;
+    urdf.joints.back().has_transmission = driven.contains(joint->first);
+    const int index = static_cast<int>(&element - elements.data());
+    urdf.joints.back().is_turned = std::find(turned.begin(), turned.end(), joint->first) != turned.end();
+    const auto axis = axes.find(index);
+    urdf.joints.back().has_axis = axis != axes.end();
+    if (axis != axes.end()) urdf.joints.back().drawn_axis = axis->second;
+    const auto mimic = mimics.find(index);
+    if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
+  }
+}
+
 }  // namespace
 
 const UrdfLink* Urdf::find_link(const std::string& link) const {
@@ -312,40 +353,8 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const UrdfCh
   urdf.looped = find_loops(*elements);
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
-  for (const auto& [name, link] : model->links_) {
-    UrdfLink result;
-    result.name = name;
-    result.span = span_of(*elements, "link", name);
-    for (const auto& shape : link->collision_array) {
-      if (shape && shape->geometry) add_corners(*shape->geometry, to_pose(shape->origin), result.corners);
-    }
-    find_round_shape(link->collision_array, result);
-    if (!result.radius) find_round_shape(link->visual_array, result);
-    if (link->inertial && !findings->weightless.contains(name))
-      result.inertia = to_inertia(*link->inertial, findings->point_masses.contains(name));
-    urdf.links.push_back(std::move(result));
-  }
-  // In the order of the text, which is the author's order of joints.
-  std::set<std::string> done;
-  const std::map<int, UrdfMimic> mimics = find_mimics(*elements);
-  const std::set<std::string> driven = find_transmissions(*elements);
-  const std::map<int, solver::Vector3> axes = find_axes(*elements);
-  for (const XmlElement& element : *elements) {
-    if (element.parent != 0 || element.name != "joint") continue;
-    const auto joint = model->joints_.find(element.find("name")->value);
-    if (joint == model->joints_.end() || !done.insert(joint->first).second) continue;
-    urdf.joints.push_back(to_joint(*joint->second));
-    urdf.joints.back().span = element.span;
-    urdf.joints.back().has_transmission = driven.contains(joint->first);
-    const int index = static_cast<int>(&element - elements->data());
-    const auto& turned = changes.turning;
-    urdf.joints.back().is_turned = std::find(turned.begin(), turned.end(), joint->first) != turned.end();
-    const auto axis = axes.find(index);
-    urdf.joints.back().has_axis = axis != axes.end();
-    if (axis != axes.end()) urdf.joints.back().drawn_axis = axis->second;
-    const auto mimic = mimics.find(index);
-    if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
-  }
+  read_links(*model, *elements, *findings, urdf);
+  read_joints(*model, *elements, changes.turning, urdf);
   correct_inertias(urdf, diagnostics);
   return urdf;
 }

@@ -149,6 +149,14 @@ void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnos
   }
 }
 
+void parse_outcome(const Node& outcome, MapReader& map, ExpectationText& expected, Diagnostics& diagnostics) {
+  expected.word = parse_word(outcome, "`outcome`", diagnostics);
+  const bool is_known = std::find(outcomes.begin(), outcomes.end(), expected.word.text) != outcomes.end();
+  if (expected.word.exists() && !is_known)
+    diagnostics.add(wording::unknown_outcome(outcome.span, expected.word.text, outcomes));
+  if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
+}
+
 std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study, Diagnostics& diagnostics) {
   // `outcome done` means the outcome; what compares or names a part of something is a condition.
   const std::string written = node.is_scalar() ? trimmed(node.text) : "done";
@@ -175,13 +183,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study
     if (count > 1 || !map.has_unread_keys()) diagnostics.add(wording::one_expectation(node.span));
     is_good = false;
   }
-  if (outcome != nullptr) {
-    expected.word = parse_word(*outcome, "`outcome`", diagnostics);
-    if (expected.word.exists() &&
-        std::find(outcomes.begin(), outcomes.end(), expected.word.text) == outcomes.end())
-      diagnostics.add(wording::unknown_outcome(outcome->span, expected.word.text, outcomes));
-    if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
-  }
+  if (outcome != nullptr) parse_outcome(*outcome, map, expected, diagnostics);
   if (code != nullptr) {
     expected.kind = ExpectationKind::diagnostic;
     expected.word = parse_word(*code, "`diagnostic`", diagnostics);

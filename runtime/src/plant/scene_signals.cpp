@@ -210,6 +210,23 @@ solver::ForceVector SceneSignals::wrench(Source& source, const Truth& truth,
   return {from_sensor.rotation * felt.angular + from_sensor.position.cross(force), force};
 }
 
+solver::Pose SceneSignals::pose(Source& source, const Truth& truth,
+                                const solver::State& state) const noexcept {
+  const bool is_own = source.signal.object < 0;
+  const double yaw = solver::yaw_of(state.base_pose.rotation);
+  const PlanarPose at = is_own ? PlanarPose{state.base_pose.position.x(), state.base_pose.position.y(), yaw}
+                               : seen_pose(truth, source.signal.object);
+  const solver::FrameMotion in = solver::motion_of(source.in, model_, state);
+  // Scenes are flat: a socket is as high as the hook that fits, anything else as high as who sees it.
+  const solver::Pose seen_from = source.hook ? solver::motion_of(*source.hook, model_, state).pose : in.pose;
+  solver::Pose seen;
+  seen.position = {at.x + source.signal.noise * source.noise.normal(),
+                   at.y + source.signal.noise * source.noise.normal(), seen_from.position.z()};
+  seen.rotation =
+      solver::rotation_from_rpy(0.0, 0.0, at.yaw + source.signal.angle_noise * source.noise.normal());
+  return in.pose.inverse() * seen;
+}
+
 SignalSample SceneSignals::measured(Source& source, const Truth& truth,
                                     const solver::State& state) const noexcept {
   SignalSample sample;
@@ -250,24 +267,9 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
     case SceneSignalKind::distance:
       sample.number = std::max(0.0, distance(truth, number, state) + signal.noise * source.noise.normal());
       break;
-    case SceneSignalKind::pose: {
-      const bool is_own = signal.object < 0;
-      const double yaw = solver::yaw_of(state.base_pose.rotation);
-      const PlanarPose at = is_own
-                                ? PlanarPose{state.base_pose.position.x(), state.base_pose.position.y(), yaw}
-                                : seen_pose(truth, number);
-      const solver::FrameMotion in = solver::motion_of(source.in, model_, state);
-      // Scenes are flat: a socket is as high as the hook that fits, anything else as high as who sees it.
-      const solver::Pose seen_from =
-          source.hook ? solver::motion_of(*source.hook, model_, state).pose : in.pose;
-      solver::Pose seen;
-      seen.position = {at.x + signal.noise * source.noise.normal(),
-                       at.y + signal.noise * source.noise.normal(), seen_from.position.z()};
-      seen.rotation =
-          solver::rotation_from_rpy(0.0, 0.0, at.yaw + signal.angle_noise * source.noise.normal());
-      sample.pose = in.pose.inverse() * seen;
+    case SceneSignalKind::pose:
+      sample.pose = pose(source, truth, state);
       break;
-    }
   }
   return sample;
 }

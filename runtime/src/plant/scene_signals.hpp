@@ -78,6 +78,7 @@ class SceneSignals {
 
   /// Of a sensor, seen from the signal's frame.
   solver::ForceVector wrench(Source& source, const Truth& truth, const solver::State& state) const noexcept;
+  solver::Pose pose(Source& source, const Truth& truth, const solver::State& state) const noexcept;
 
   solver::Model model_;
   std::size_t number_;  ///< of the seeing robot
