@@ -47,7 +47,7 @@ step 'the module' inside "cd mine; python3 -c 'import zwang; assert zwang.run(zw
 step 'zwang-ros2' inside 'apt-get -qq -y install --no-install-recommends /packages/zwang-ros2_*.deb'
 step 'drive' inside 'zwang drive --help'
 
-step 'zwang-mpi' inside 'apt-get -qq -y install --no-install-recommends /packages/zwang-mpi_*.deb'
+step 'zwang-mpi' inside 'apt-get -qq -y install --no-install-recommends /packages/zwang-mpi_*.deb openmpi-bin'
 step 'a study on two ranks' inside 'cd mine; printf "zwang_study: 1\ntask: wall_align.yaml\nruns: 4\ndraw: {params.push: {uniform: [5 N, 40 N]}}\nexpect: [{outcome: done, probability: 30 %%}]\n" > study.yaml; mpirun --allow-run-as-root --oversubscribe -n 2 zwang sweep study.yaml --out study.db'
 
 step 'libzwang-dev' inside 'apt-get -qq -y install --no-install-recommends /packages/libzwang-dev_*.deb g++ cmake ninja-build'
