@@ -151,6 +151,7 @@ def routes_of(connection):
     routes = ["state:/joint_states:sensor_msgs/JointState"]
     if CLOCK in connection:
         routes.append("state:/clock:rosgraph_msgs/Clock")
+        routes.append("command:/zwang/ticked:rosgraph_msgs/Clock")
     kinds = {"signals:": "state", "outputs:": "output"}
     sources = {"base": "nav_msgs/Odometry", "fix": "geometry_msgs/PoseWithCovarianceStamped", "wrench": "geometry_msgs/WrenchStamped"}
     if "fix: {tf:" in connection:

@@ -4,7 +4,7 @@ import signal
 import subprocess
 import time
 
-from pair import CLOCK, EFFORT, SLACK, STALE_AFTER, TIMEOUT, TWIST, Pair, expect, number, start, workplace
+from pair import CLOCK, EFFORT, ROLL, SLACK, STALE_AFTER, TIMEOUT, TWIST, Pair, expect, number, start, workplace
 
 
 def silence_of_the_robot_stops(program, root, folder):
@@ -87,6 +87,22 @@ def a_late_computer_is_told(program, root, folder):
     expect("overrun time 0.0" in drive, "it does not say that it was late", drive)
 
 
+def a_drive_that_is_held_back_is_waited_for(program, root, folder):
+    """By a published clock. 40 ms are twice what the guard rides through, and less than two commands are apart."""
+    task = folder / "roll.yaml"
+    task.write_text(ROLL.replace("y: {velocity: 0 m/s}, ", "").replace("value: 60 s", "value: 1 s"), encoding="utf-8")
+    options = ["--robot", root / "specs/robots/turtlebot3_burger.yaml", "--scene", root / "specs/scenes/open.yaml"]
+    pair = Pair(program, folder, task, TWIST.replace("50 Hz", "20 Hz"), options, 49, more=CLOCK, stale_after="500 ms")
+    pair.wait_until_it_drives(0.1)
+    for _ in range(5):
+        pair.drive.send_signal(signal.SIGSTOP)
+        time.sleep(0.04)
+        pair.drive.send_signal(signal.SIGCONT)
+        time.sleep(0.05)
+    code, drive, simulate = pair.end()
+    expect(code == 0 and "done after" in drive and "lost_ticks" not in drive, "not done", drive, simulate)
+
+
 def a_clock_in_long_steps_is_refused(program, root, folder):
     """Ticks of 0.4 ms here, and a simulator that tells the time every 10 ms: 20 ticks are 8 ms."""
     task, slow = workplace(root, folder), folder / "robot_of_the_simulator.yaml"
@@ -119,4 +135,4 @@ def observing_tells_clocks_that_differ(program, root, folder):
 
 CASES = (silence_of_the_robot_stops, a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros,
          a_stuck_odometry_stops, a_robot_that_comes_back_is_not_driven_on, a_late_computer_is_told,
-         a_clock_in_long_steps_is_refused, observing_tells_clocks_that_differ)
+         a_drive_that_is_held_back_is_waited_for, a_clock_in_long_steps_is_refused, observing_tells_clocks_that_differ)
