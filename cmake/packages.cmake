@@ -68,6 +68,7 @@ robot. Neither needs an installation of ROS.")
 zwang_package(python python3-zwang python "python3 (>= 3.11), python3 (<< 3.12), python3-numpy"
 "task language and runtime for mobile robots - Python module" "Checks and runs task files, sweeps parameters, reads logs as numpy arrays,
 and steps a plant that is written in Python.")
+set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)  # for mpirun; srun needs no such program
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)

@@ -61,8 +61,20 @@ Control::Control(const lang::Connection& connection, const lang::Program& progra
 
 Control::~Control() {
   participant_.stop_serving();
-  is_over_ = true;
+  {
+    const std::lock_guard lock(changing_);
+    is_over_ = true;
+  }
+  changed_.notify_one();
   thread_.join();
+}
+
+void Control::enter(Phase phase) noexcept {
+  {
+    const std::lock_guard lock(changing_);
+    phase_ = phase;
+  }
+  changed_.notify_one();
 }
 
 void Control::serve(const std::string& name, TriggerReply (Control::*answer)()) {
@@ -112,7 +124,10 @@ TriggerReply Control::reset() {
   const std::string next = connection_.begin == lang::Begin::goals
                                ? "goals are taken again"
                                : connection_.name + "/start begins the task anew";
-  if (phase_.compare_exchange_strong(phase, Phase::ready)) return {true, next};
+  if (phase_.compare_exchange_strong(phase, Phase::ready)) {
+    changed_.notify_one();
+    return {true, next};
+  }
   return {phase == Phase::ready, phase == Phase::ready ? "nothing is latched" : "it is not at rest"};
 }
 
@@ -176,14 +191,18 @@ void Control::end(const std::string& outcome, const std::string& reason) {
   reason_ = reason;
 }
 
-/// The state goes out when the phase or the task is another one, and once a second. While a goal is driven,
-/// its feedback goes out each time.
+/// The state goes out as soon as the phase is another one, within 0.1 s of another task, and once a second.
+/// While a goal is driven, its feedback goes out each time.
 void Control::tell_changes() {
   Bytes bytes;
   Phase last_phase = Phase::ended;
   int last_task = -2, since = at_least_every;
   std::uint64_t told_skipped = 0;
-  for (bool is_last = false; !is_last; std::this_thread::sleep_for(tell_every)) {
+  for (bool is_last = false; !is_last;) {
+    {
+      std::unique_lock lock(changing_);
+      changed_.wait_for(lock, tell_every, [&] { return is_over_ || phase_ != last_phase; });
+    }
     is_last = is_over_;
     const Phase phase = phase_;
     const int task = task_;
@@ -204,6 +223,7 @@ void Control::tell_changes() {
     told_skipped = skipped;
     health_writer_->write(bytes);
   }
+  std::this_thread::sleep_for(tell_every);  // DDS sends the last word meanwhile
 }
 
 }  // namespace zwang::connect

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -41,7 +42,8 @@ class Control {
   /// A client has cancelled the goal that is driven.
   bool wants_cancel() const noexcept { return goals_ != nullptr && goals_->wants_cancel(); }
 
-  void enter(Phase phase) noexcept { phase_ = phase; }
+  /// `~/state` tells it at once.
+  void enter(Phase phase) noexcept;
   bool is_latched() const noexcept { return phase_ == Phase::latched; }
   /// The program that `note` speaks of from now on; it lives until the next one is named.
   void speak_of(const lang::Program& program);
@@ -93,7 +95,9 @@ class Control {
   std::atomic<int> task_{-1};
   std::atomic<std::uint64_t> skipped_{0};
   std::atomic<double> elapsed_{0.0}, progress_{-1.0}, force_{0.0};  ///< [s], share, [N]
-  mutable std::mutex mutex_;                                        ///< of those below
+  std::mutex changing_;  ///< of the phase, for whoever waits for another one
+  std::condition_variable changed_;
+  mutable std::mutex mutex_;  ///< of those below
   const lang::Program* program_;
   std::string outcome_, reason_;
   std::thread thread_;

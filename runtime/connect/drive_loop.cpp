@@ -178,6 +178,11 @@ class Loop {
     if (!report_.silence && guard.stopped() && guard.reason() == EventCode::lost_ticks)
       report_.silence = inbox_.silence();
     outbox_.send_outputs(runner_.outputs());
+    send_command();
+    outbox_.tell_tick(sensed_.time);
+  }
+
+  void send_command() {
     // A tick that comes a little early is that of its cycle.
     const double time = inbox_.clock().time();
     if (time < send_at_ - 0.3 * period_) return;

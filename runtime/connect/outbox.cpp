@@ -35,7 +35,20 @@ Outbox::Outbox(const lang::Connection& connection, const lang::Program& program,
                         participant.advertise(sink.topic.name, lang::to_string(sink.type), Late::gets_last),
                         {},
                         {}});
+  if (connection.clock)
+    ticked_ = participant.advertise(ticked_topic(connection), lang::to_string(lang::MessageType::clock));
   write_for(program);
+}
+
+std::string ticked_topic(const lang::Connection& connection) {
+  return connection.name + "/ticked";
+}
+
+void Outbox::tell_tick(double time) noexcept {
+  if (!ticked_ || ticked_->readers() == 0) return;
+  const Header header = header_at(time);
+  encode(ClockMessage{header.seconds, header.nanoseconds}, bytes_);
+  ticked_->write(bytes_);
 }
 
 void Outbox::write_for(const lang::Program& program) {

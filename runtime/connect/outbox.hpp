@@ -29,6 +29,8 @@ class Outbox {
   void send_zeros(double stamp) noexcept;
   /// From now on outputs are those of this program, in its order.
   void write_for(const lang::Program& program);
+  /// By a published clock: the time of a tick whose commands have gone out. A simulation waits for it.
+  void tell_tick(double time) noexcept;
   int readers() const noexcept { return writer_->readers(); }
 
  private:
@@ -36,7 +38,7 @@ class Outbox {
 
   const lang::CommandSink& sink_;
   std::vector<int> order_;
-  std::unique_ptr<Writer> writer_, last_writer_;
+  std::unique_ptr<Writer> writer_, last_writer_, ticked_;
   runtime::Command zeros_;
   struct OutputWriter {
     std::string name;  ///< of the output
@@ -49,6 +51,8 @@ class Outbox {
   Bytes bytes_;
 };
 
+/// Where `zwang drive` tells its ticks by a published clock.
+std::string ticked_topic(const lang::Connection& connection);
 /// Drops the command behind a payload of the sink's type into `command`; false for a bad one.
 bool read_command(const lang::CommandSink& sink, const std::vector<int>& order,
                   std::span<const std::uint8_t> payload, runtime::Command& command);

@@ -47,6 +47,12 @@ void RobotSide::join(Participant& participant) {
   }
   if (connection_.clock)
     clock_ = participant.advertise(connection_.clock->name, lang::to_string(lang::MessageType::clock));
+  if (connection_.clock) {
+    const auto take = [this](const Payload& payload) {
+      if (const auto message = decode<ClockMessage>(payload.bytes)) ticked_ = message->time();
+    };
+    participant.subscribe(ticked_topic(connection_), lang::to_string(lang::MessageType::clock), take);
+  }
   subscribe_outputs(participant);
   const lang::CommandSink& sink = connection_.command;
   participant.subscribe(sink.topic.name, lang::to_string(sink.type), [this, &sink](const Payload& payload) {

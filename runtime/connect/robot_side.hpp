@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "clock.hpp"
@@ -47,6 +48,11 @@ class RobotSide {
   /// were told last. `time` [s] is as `time()`.
   const runtime::Command& command(double time);
   const CommandMail& newest() const noexcept { return mail_.value(); }
+  /// [s] of a published clock: the last tick that the other side has told of; none: it tells of none.
+  std::optional<double> ticked() const noexcept {
+    const double time = ticked_;
+    return time < 0.0 ? std::nullopt : std::optional(time);
+  }
 
  private:
   void subscribe_outputs(Participant& participant);
@@ -67,7 +73,7 @@ class RobotSide {
   Mailbox<CommandMail> mail_;
   OnePublisher commander_;  ///< of the thread of DDS that takes commands
   runtime::Command zeros_, given_;
-  std::atomic<double> told_time_{0.0};
+  std::atomic<double> told_time_{0.0}, ticked_{-1.0};
   std::vector<std::atomic<double>> outputs_;  ///< by Program::outputs
   std::unique_ptr<Writer> joints_, base_, fix_, wrench_, clock_;
   std::vector<SignalWriter> signals_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <optional>
 
 #include "../cli/interruption.hpp"
 #include "arguments.hpp"
@@ -88,15 +89,16 @@ void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, H
   }
 }
 
-/// With a clock of its own the world stands while a command is due, so that a busy machine is slow and not
-/// late. A message that was lost may have both sides wait for each other: the world makes one step before the
-/// other side takes the robot for dead. A controller that is silent for `longest_wait` is not waited for
-/// until its next command.
+/// With a clock of its own the world stands while a command or a tick of the other side is due, so that a
+/// busy machine is slow and not late. A message that was lost may have both sides wait for each other: the
+/// world makes one step before the other side takes the robot for dead. A controller that is silent for
+/// `longest_wait` is not waited for until its next command.
 class InStep {
  public:
   InStep(const lang::Connection& connection, double period)
       : is_on_(connection.clock.has_value()),
         most_(1.5 * std::max(period, 1.0 / connection.command.rate.value_or(1.0 / period))),
+        most_ticks_(1.5 * period),
         longest_step_(0.5 * connection.joints.stale_after) {}
 
   void wait(RobotSide& side) {
@@ -109,16 +111,22 @@ class InStep {
  private:
   bool is_served(const RobotSide& side, double begin) {
     const double time = now(), arrival = side.newest().arrival;
-    if (arrival != last_arrival_) last_arrival_ = arrival, silent_since_ = time;
-    return side.time() - arrival <= most_ || time - begin > longest_step_ ||
-           time - silent_since_ > longest_wait || cli::is_interrupted();
+    const std::optional<double> ticked = side.ticked();
+    if (arrival != last_arrival_ || ticked != last_tick_)
+      last_arrival_ = arrival, last_tick_ = ticked, silent_since_ = time;
+    const bool is_in_step =
+        side.time() - arrival <= most_ && (!ticked || side.time() - *ticked <= most_ticks_);
+    return is_in_step || time - begin > longest_step_ || time - silent_since_ > longest_wait ||
+           cli::is_interrupted();
   }
 
   bool is_on_;
   double most_;                 // [s] of the world, between two commands
+  double most_ticks_;           // [s] of the world, between two ticks of the other side
   double longest_step_;         // [s] of this computer
   double last_arrival_ = -1.0;  // [s] of the world
-  double silent_since_ = 0.0;   // [s] of this computer
+  std::optional<double> last_tick_;
+  double silent_since_ = 0.0;  // [s] of this computer
 };
 
 runtime::PlantStatus run(const lang::Connection& connection, const lang::Program& program, RobotSide& side,

@@ -84,17 +84,35 @@ std::string words_of(const solver::Row& row) {
   }
 }
 
+/// A line for each kind of row: a norm has the same one in several directions.
 std::string rows_of(const runtime::TaskPlan& plan, const std::string& name, bool turns) {
-  std::string text;
+  std::vector<std::pair<std::string, int>> lines;
   for (const runtime::PlannedRow& planned : plan.rows) {
     if (planned.name != name) continue;
-    text += "- " + words_of(planned.row) + ", level " + std::to_string(planned.row.level);
+    std::string text = words_of(planned.row) + ", level " + std::to_string(planned.row.level);
     if (planned.row.kind == solver::RowKind::driver)
       text += ": asks for " + with_unit(planned.row.b, turns ? "rad/s^2" : "m/s^2", 3) + " at the start";
     if (planned.fraction) text += "; soft: meets " + with_unit(*planned.fraction, "", 2) + " of it";
-    text += "\n";
+    const auto same =
+        std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == text; });
+    if (same == lines.end()) {
+      lines.emplace_back(text, 1);
+    } else {
+      ++same->second;
+    }
   }
-  return text;
+  std::string all;
+  for (const auto& [text, count] : lines)
+    all += "- " + text + (count > 1 ? ", in " + std::to_string(count) + " directions" : "") + "\n";
+  return all;
+}
+
+/// A row that hangs on a signal without a sample asks for nothing.
+std::string unknown_of(const runtime::TaskPlan& plan) {
+  std::string names;
+  for (const std::string& signal : plan.unknown_signals)
+    names += (names.empty() ? "`" : ", `") + signal + "`";
+  return names.empty() ? "" : "\nnot known at the start: " + names + "; rows that hang on it stand still\n";
 }
 
 /// Of the first task in which the axis stands: what its rows do, and what the robot has for them.
@@ -108,7 +126,8 @@ std::string about_axis(const Loaded& loaded, std::size_t task, const lang::AxisS
     return "**`" + axis.name + "`** in `" + plan.task + "` on `" + loaded.program.robot.name + "`\n\n" +
            rows_of(plan, axis.name, planned.turns) + "\neffective mass: " + mass_of(planned) +
            "  \nlargest force: " + force_of(planned) +
-           "  \nlimited by: " + limit_of(loaded.program, loaded.diagnostics, planned, axis.axis) + "\n";
+           "  \nlimited by: " + limit_of(loaded.program, loaded.diagnostics, planned, axis.axis) + "\n" +
+           unknown_of(plan);
   }
   return "`" + axis.name + "` has no row at the start of `" + plan.task + "`\n";
 }
@@ -160,6 +179,22 @@ std::string about_parameter(const Asked& asked, const std::string& name) {
   return {};
 }
 
+/// By the file that gives it. What a robot file gives is a frame; a word of a condition that no file gives
+/// may be anything.
+std::optional<lang::NameKind> kind_of_name(const Asked& asked, const lang::NamePlace& name) {
+  if (name.is_given || name.kinds.size() == 1) return name.kinds.front();
+  for (const std::filesystem::path& file : homes_of(asked.file)) {
+    lang::Diagnostics unheard;
+    const auto kind = lsp::kind_of(file);
+    if (!kind) continue;
+    for (const lang::NamePlace& given : lang::names_of(*kind, file, unheard)) {
+      if (is_given_for(given, name)) return given.kinds.front();
+    }
+  }
+  if (name.kinds.front() == lang::NameKind::group) return std::nullopt;
+  return name.kinds.front();
+}
+
 std::string about_name(const Asked& asked, const lang::Position& place) {
   const std::optional<lang::NamePlace> name = name_at(asked.file, asked.kind, place);
   if (!name) return {};
@@ -170,7 +205,10 @@ std::string about_name(const Asked& asked, const lang::Position& place) {
   if (name->name == "estimated" && name->may_be(lang::NameKind::group))
     return "`estimated.force.x`, `estimated.FRAME.x`: what presses on the robot, by its torques and motion "
            "alone\n";
-  return std::string(lang::word_of(name->kinds.front())) + " `" + name->name + "`\n";
+  if (name->name == "elapsed" && name->may_be(lang::NameKind::group))
+    return "`elapsed`: time since the task was entered\n";
+  const std::optional<lang::NameKind> kind = kind_of_name(asked, *name);
+  return kind ? std::string(lang::word_of(*kind)) + " `" + name->name + "`\n" : "";
 }
 
 bool is_in_a_word(char c) {

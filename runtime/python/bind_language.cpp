@@ -194,12 +194,12 @@ namespace {
 
 void bind_diagnostic(py::module_& module) {
   py::class_<Edit>(module, "Edit", "A text for a place of a file. The end is exclusive.")
-      .def_readonly("path", &Edit::path)
+      .def_readonly("path", &Edit::path, "of the file that it changes")
       .def_readonly("line", &Edit::line, "from 1")
       .def_readonly("column", &Edit::column, "from 1, in code points")
-      .def_readonly("end_line", &Edit::end_line)
-      .def_readonly("end_column", &Edit::end_column)
-      .def_readonly("text", &Edit::text)
+      .def_readonly("end_line", &Edit::end_line, "from 1")
+      .def_readonly("end_column", &Edit::end_column, "from 1, behind the last character")
+      .def_readonly("text", &Edit::text, "what stands there afterwards; empty: nothing")
       .def("__repr__", [](const Edit& e) {
         return e.path + ":" + std::to_string(e.line) + ":" + std::to_string(e.column) + ": `" + e.text + "`";
       });
@@ -207,9 +207,9 @@ void bind_diagnostic(py::module_& module) {
   py::class_<Told>(module, "Diagnostic", "What zwang has to say about a line of a file.")
       .def_readonly("code", &Told::code, "stable, as `E201`; `zwang explain E201` says more")
       .def_readonly("severity", &Told::severity, "`error`, `warning` or `note`")
-      .def_readonly("message", &Told::message)
+      .def_readonly("message", &Told::message, "what is wrong, with the values")
       .def_readonly("help", &Told::help, "what to write instead; may be empty")
-      .def_readonly("path", &Told::path)
+      .def_readonly("path", &Told::path, "of the file; empty: no file's")
       .def_readonly("line", &Told::line, "from 1")
       .def_readonly("column", &Told::column, "from 1, in code points")
       .def_readonly("replacement", &Told::replacement, "what may stand in its place; None: nobody can tell")
@@ -223,7 +223,7 @@ void bind_diagnostic(py::module_& module) {
 
 void bind_program(py::module_& module) {
   py::class_<lang::Program>(module, "_Program")
-      .def_readonly("path", &lang::Program::path)
+      .def_readonly("path", &lang::Program::path, "of the task file")
       .def_property_readonly(
           "robot", [](const lang::Program& p) { return p.robot.name; }, "the robot's name, of its URDF")
       .def_property_readonly(

@@ -174,7 +174,8 @@ void bind_result(py::module_& module) {
       .def_readonly("limit", &runtime::LimitReport::limit, "SI")
       .def_readonly("worst", &runtime::LimitReport::worst, "the value nearest to it, or farthest beyond; SI")
       .def_readonly("margin", &runtime::LimitReport::margin, "what was left; negative where it was broken")
-      .def_readonly("unit", &runtime::LimitReport::unit)
+      .def_readonly("unit", &runtime::LimitReport::unit,
+                    "of `limit`, `worst` and `margin`; empty for pure numbers")
       .def("__repr__", [](const runtime::LimitReport& l) { return "<zwang.Limit " + l.row + ">"; });
   py::class_<Result>(module, "Result", "How a run ended.")
       .def_readonly("outcome", &Result::outcome,
@@ -185,7 +186,7 @@ void bind_result(py::module_& module) {
       .def_readonly(
           "truth", &Result::truth,
           "what the plant measured at the end, in SI: `truth['wall.peak_force']`; None: it never was")
-      .def_readonly("limits", &Result::limits)
+      .def_readonly("limits", &Result::limits, "every limit that was in force")
       .def_readonly("log", &Result::log, "None without `log=True`")
       .def("__repr__", [](const Result& r) { return "<zwang.Result " + r.outcome + ">"; });
 }

@@ -99,6 +99,7 @@ TEST(Message, OfACountThatLiesAsksForNoMemory) {
 TEST(Message, OfAnyBytesIsReadWithinThem) {
   std::mt19937 random(1);
   const std::vector<Bytes> seeds{encoded(two_joints()), encoded(scan()), encoded(Odometry{}),
+                                 encoded(TransformsMessage{{{{1, 2, "map"}, "odom", {}}, {}}}),
                                  encoded(Float64MultiArray{{{"rows", 2, 2}}, 0, {1, 2}})};
   const int rounds = zwang::test::is_long() ? 1'000'000 : 20'000;
   for (int round = 0; round < rounds; ++round) {
@@ -113,6 +114,9 @@ TEST(Message, OfAnyBytesIsReadWithinThem) {
     (void)decode<Odometry>(bytes), (void)decode<Float64MultiArray>(bytes), (void)decode<Twist>(bytes);
     (void)decode<PoseWithCovarianceStamped>(bytes), (void)decode<WrenchStamped>(bytes),
         (void)decode<Bool>(bytes);
+    (void)decode<TwistStamped>(bytes), (void)decode<PoseStamped>(bytes),
+        (void)decode<TransformsMessage>(bytes);
+    (void)decode<ClockMessage>(bytes), (void)decode<Float64>(bytes);
   }
 }
 

@@ -44,6 +44,20 @@ CLOCK = "clock: {ros: /clock}\n"  # the world waits for commands: a busy machine
 # a message were seen.
 PATIENCE = "500 ms"
 
+# A base that rolls ahead for so long.
+ROLL = """zwang: 2
+robot: robot.yaml
+start: go
+params: {speed: {value: 0.02 m/s, range: [0.01 m/s, 0.3 m/s]}, until: {value: 60 s, range: [0.1 s, 60 s]}}
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: $speed}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: elapsed > $until, goto: done}
+    timeout: {after: 100 s, goto: failed}
+"""
+
 
 class Unreachable(Exception):
     """Two processes do not hear each other here."""
@@ -137,6 +151,7 @@ def routes_of(connection):
     routes = ["state:/joint_states:sensor_msgs/JointState"]
     if CLOCK in connection:
         routes.append("state:/clock:rosgraph_msgs/Clock")
+        routes.append("command:/zwang/ticked:rosgraph_msgs/Clock")
     kinds = {"signals:": "state", "outputs:": "output"}
     sources = {"base": "nav_msgs/Odometry", "fix": "geometry_msgs/PoseWithCovarianceStamped", "wrench": "geometry_msgs/WrenchStamped"}
     if "fix: {tf:" in connection:

@@ -37,7 +37,7 @@ class Features : public ::testing::Test {
     fs::create_directories(copy / "scenarios");
     fs::create_directories(copy / "studies");
     for (const char* part :
-         {"robots", "scenes", "hospital.yaml", "wall_align.yaml", "scenarios/hospital.yaml",
+         {"robots", "scenes", "docking.yaml", "hospital.yaml", "wall_align.yaml", "scenarios/hospital.yaml",
           "scenarios/wall_align.yaml", "studies/wall_align.yaml"})
       fs::copy(specs / part, copy / part, fs::copy_options::recursive);
     std::ofstream(copy / ".zwang-root");
@@ -157,6 +157,35 @@ TEST_F(Features, HoverTellsWhatAFunctionMeasures) {
   const fs::path task = open("wall_align.yaml");
   EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "moved(base)", 2),
                        "`moved(..)`: of the origin's path since the task was entered"));
+}
+
+TEST_F(Features, HoverCallsNoWordOfAConditionAName) {
+  const fs::path task = open("wall_align.yaml");
+  EXPECT_FALSE(contains(editor_.at("textDocument/hover", task, "and moved", 1), "group"));
+  const json elapsed = editor_.at("textDocument/hover", task, "elapsed", 2);
+  EXPECT_TRUE(contains(elapsed, "time since the task was entered")) << elapsed;
+  EXPECT_FALSE(contains(elapsed, "group")) << elapsed;
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "contact.x.position", 2), "group `contact`"));
+  const fs::path scenario = open("scenarios/wall_align.yaml");
+  EXPECT_FALSE(contains(editor_.at("textDocument/hover", scenario, "truth.", 2), "group `truth`"));
+}
+
+TEST_F(Features, HoverRoundsAsAPersonReads) {
+  const fs::path task = open("wall_align.yaml");
+  // pi / 360
+  EXPECT_TRUE(
+      contains(editor_.at("textDocument/hover", task, "0.5 deg/s", 2), "`0.5 deg/s` = 0.00872665 rad/s:"));
+}
+
+TEST_F(Features, HoverTellsARowOfANormOnceAndWhatIsUnknown) {
+  const fs::path task = open("docking.yaml");
+  const json norm = editor_.at("textDocument/hover", task, "plane: {acceleration", 2);
+  const std::string words = "bounds the acceleration from above";
+  const std::string told = norm["contents"]["value"];
+  EXPECT_EQ(told.find(words), told.rfind(words)) << told;
+  // The partner, whose pose is a signal: the scene has measured none yet.
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "x:  {position: 0 m", 1),
+                       "not known at the start: `partner`"));
 }
 
 TEST_F(Features, AnUnknownNameInACallHasAnEdit) {

@@ -22,8 +22,10 @@ step() {
   tail -n 40 "$place/log"
   exit 1
 }
-inside() { chroot "$root" env DEBIAN_FRONTEND=noninteractive HOME=/root sh -ec "cd /root; $1"; }
+# The tools of the machine that builds are none of the root's.
+inside() { chroot "$root" env -u CMAKE_CXX_COMPILER_LAUNCHER -u CXX DEBIAN_FRONTEND=noninteractive HOME=/root sh -ec "cd /root; $1"; }
 
+if command -v lintian >/dev/null; then step 'lintian' lintian --allow-root --fail-on error,warning "$packages"/*.deb; fi
 step 'a fresh root' debootstrap --variant=minbase bookworm "$root"
 mount -t proc proc "$root/proc"
 cp /etc/apt/sources.list.d/* "$root/etc/apt/sources.list.d/" 2>/dev/null || true
@@ -45,6 +47,9 @@ step 'the module' inside "cd mine; python3 -c 'import zwang; assert zwang.run(zw
 step 'zwang-ros2' inside 'apt-get -qq -y install --no-install-recommends /packages/zwang-ros2_*.deb'
 step 'drive' inside 'zwang drive --help'
 
+step 'zwang-mpi' inside 'apt-get -qq -y install --no-install-recommends /packages/zwang-mpi_*.deb openmpi-bin'
+step 'a study on two ranks' inside 'cd mine; printf "zwang_study: 1\ntask: wall_align.yaml\nruns: 4\ndraw: {params.push: {uniform: [5 N, 40 N]}}\nexpect: [{outcome: done, probability: 30 %%}]\n" > study.yaml; mpirun --allow-run-as-root --oversubscribe -n 2 zwang sweep study.yaml --out study.db'
+
 step 'libzwang-dev' inside 'apt-get -qq -y install --no-install-recommends /packages/libzwang-dev_*.deb g++ cmake ninja-build'
 step 'a program of its own' inside 'cmake -S examples -B built -G Ninja; cmake --build built; built/01_solver/01_solver'
-echo 'four packages in a fresh root'
+echo 'five packages in a fresh root'

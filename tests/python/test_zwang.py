@@ -301,6 +301,17 @@ def test_a_robot_that_feels_is_told_what_it_feels():
     assert "press.contact.x.force" in [limit.row for limit in runner.limits] or runner.limits
 
 
+def test_every_member_says_what_it_is():
+    said = {}
+    for name, value in vars(zwang).items():
+        if name.startswith("_") or isinstance(value, types.ModuleType):
+            continue
+        said[name] = value.__doc__
+        if isinstance(value, type) and value is not zwang.Error:  # its other members are those of ValueError
+            said |= {f"{name}.{m}": getattr(value, m).__doc__ for m in dir(value) if not m.startswith("_")}
+    assert [name for name, doc in said.items() if not doc] == []
+
+
 def test_a_long_run_can_be_interrupted():
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):

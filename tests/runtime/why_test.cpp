@@ -300,6 +300,28 @@ tasks:
 }
 
 // Both regions end at x = 0.6 m, and the base stands at 2 m: 1.4 m outside of them.
+/// A robot's clock counts from 1970 on. The sample of 0.5 s does not come.
+TEST(Why, TellsTimesSinceTheRunBegan) {
+  const lang::Program program =
+      zwang::test::program_in_scene(("zwang: 1\nrobot: robots/mecanum_base.yaml\n" +
+                                     std::string(drive_ahead) + "    timeout: {after: 1 s, goto: failed}\n")
+                                        .c_str(),
+                                    open_floor);
+  ScenePlant plant(program, {});
+  Runner runner(program);
+  Sensed sensed(program);
+  for (int tick = 0; !runner.finished() && tick < 5000; ++tick) {
+    if (tick != 500) {
+      plant.sense(sensed);
+      sensed.time += 1'795'782'845.0;
+    }
+    if (plant.apply(runner.step(sensed)) != PlantStatus::ok) break;
+  }
+  ASSERT_EQ(runner.state(), RunState::failed);
+  EXPECT_NE(runner.why()->sentence.find("the guard told at 0.500 s: no sample arrived"), std::string::npos)
+      << runner.why()->sentence;
+}
+
 TEST(Why, ARegionThatIsLeft) {
   Ended ended = stands_outside("{polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}");
   expect_words(ended,

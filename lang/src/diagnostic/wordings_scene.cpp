@@ -2,6 +2,7 @@
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "diagnostic/wordings_scenario.hpp"
 #include "words/nearest.hpp"
 #include "words/text.hpp"

@@ -93,7 +93,9 @@ void NameWalk::mean_condition(const Node& scalar, const std::string& scope) {
       const std::size_t end = end_of_word(text, at);
       const ConditionFunction* call =
           end < text.size() && text[end] == '(' ? find_function(text.substr(at, end - at)) : nullptr;
-      if (!is_behind_number && call == nullptr) mean_part(scalar, at, end, kinds_in(called), scope);
+      const std::string_view word = std::string_view(text).substr(at, end - at);
+      const bool joins = word == "and" || word == "or" || word == "not";
+      if (!is_behind_number && call == nullptr && !joins) mean_part(scalar, at, end, kinds_in(called), scope);
       called = call;
       at = end;
       while (at < text.size() && (is_word_part(text[at]) || text[at] == '.')) ++at;  // `.x.velocity`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -97,7 +98,9 @@ std::string in_si(std::string_view text) {
   const Quantity& quantity = read.quantity;
   if (read.error != QuantityError::none || !quantity.has_unit || quantity.scale == 1.0) return {};
   const std::string unit = usual_unit(quantity.dimension);
-  return format_number(quantity.value) + (unit.empty() ? "" : " " + unit);
+  char number[32];
+  std::snprintf(number, sizeof number, "%.6g", quantity.value);  // as much as a person reads
+  return number + (unit.empty() ? "" : " " + unit);
 }
 
 std::string kind_of_quantity(std::string_view text) {

@@ -92,8 +92,8 @@ const std::vector<const PlannedTask*>& KnownNumbers::before() {
 
 bool KnownNumbers::is_entered_with(const ExpressionNode& node, const Bounds& demanded, const Known& known) {
   // Each task is compared with all before it: of many nothing is claimed, so that a check ends soon.
-  constexpr std::size_t most_tasks = 32;
-  if (plan_.task != nullptr && all_.plans.size() > most_tasks) return true;
+  constexpr std::size_t most_compared = 32;
+  if (plan_.task != nullptr && all_.plans.size() > most_compared) return true;
   const auto meets = [&](const Bounds& left) { return !both(left, demanded).is_empty(); };
   if (node.op == Op::of_frame) {
     const bool turning = calls(node, "turned");

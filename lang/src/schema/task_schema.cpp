@@ -266,7 +266,7 @@ Json task_file() {
       {"axis", axis()},
       {"group", group()},
       {"exit", exit()},
-      {"task", any_of({object("", task_keys()), task_use()})}};
+      {"task", any_of({object("what the robot does until an exit leads on", task_keys()), task_use()})}};
   // A condition may be a lone signal; `when: true` is none.
   return schema;
 }

@@ -65,9 +65,11 @@ class Plant:
     """Your own robot. `sense` fills the snapshot, `apply` sends the command; each is called once a period."""
 
     def sense(self, sensed: Sensed) -> None:
+        """Writes what the robot measures into `sensed`: its time [s], `q` and `qd` at least."""
         raise NotImplementedError
 
     def apply(self, command: Command) -> None:
+        """Sends the command to the motors; it holds for a control period."""
         raise NotImplementedError
 
 

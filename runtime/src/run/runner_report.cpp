@@ -234,16 +234,20 @@ std::optional<Why> Runner::why() const {
   const int first = event_signal::measured(p.model.joint_count(), 0);
   const int first_row = first + static_cast<int>(p.signals.size());
   std::vector<Event> kinds;
+  // A robot's clock may count from 1970 on.
+  const double began = p.transitions.empty() ? 0.0 : p.transitions.front().time;
   for (const Event& told : p.events) {
     if (told.code == EventCode::signal_refused && told.signal >= first) {
       end.refused.push_back({p.signals[static_cast<std::size_t>(told.signal - first)].name, told.value});
     } else if (!latches_the_stop(told.code) && !is_told_already(kinds, told) && told.time <= until) {
       kinds.push_back(told);
-      const std::string at = with_unit(told.time, "s");
+      const std::string at = with_unit(told.time - began, "s");
       if (told.code == EventCode::outside && told.signal >= first_row) {
-        const bool at_start = !p.transitions.empty() && told.time <= p.transitions.front().time;
+        const bool at_start = !p.transitions.empty() && told.time <= began;
+        Event in_run = told;
+        in_run.time -= began;
         end.met.push_back(
-            words_of_excursion(p.statements.all()[static_cast<std::size_t>(told.signal - first_row)], told,
+            words_of_excursion(p.statements.all()[static_cast<std::size_t>(told.signal - first_row)], in_run,
                                at_start, p.limits.reports()));
       } else if (told.code == EventCode::slip && p.slip.way() > told_slide) {
         end.met.push_back("wheels slid over the floor by " + with_unit(p.slip.way(), "m") + " in all, from " +

@@ -49,10 +49,10 @@ solver::Driver Scheduler::Parts::driver_of(ActiveAxis& a) const noexcept {
     yield(a, driver);
     return driver;
   }
-  const bool pushes = driver.quantity == Quantity::force;
+  const bool is_force = driver.quantity == Quantity::force;
   const bool has_axis = was_seen(a.group->in) && was_seen(a.group->move);
-  if (a.lost && !(pushes && has_axis && s.target.signal < 0)) {
-    if (!pushes) driver.quantity = Quantity::velocity;
+  if (a.lost && !(is_force && has_axis && s.target.signal < 0)) {
+    if (!is_force) driver.quantity = Quantity::velocity;
     driver.stiffness = driver.damping = 0.0;
     driver.target = 0.0;
     return driver;

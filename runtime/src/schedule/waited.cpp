@@ -224,7 +224,7 @@ std::string Scheduler::Parts::asked_of(const lang::Condition& condition, const C
 }
 
 /// How each comparison that holds the exit back went on while the task waited.
-void Scheduler::Parts::follow_course(const TaskSnapshot& now, int owner, std::size_t exit,
+void Scheduler::Parts::follow_course(const TaskSnapshot& snapshot, int owner, std::size_t exit,
                                      WaitedExit& waited) const {
   const GuardedExits& of = guarded[static_cast<std::size_t>(owner)];
   const lang::Condition& condition = of.exits[exit].when;
@@ -236,9 +236,9 @@ void Scheduler::Parts::follow_course(const TaskSnapshot& now, int owner, std::si
     const auto compared = std::ranges::find_if(of.compared, same);
     if (!term.holds_back || compared == of.compared.end()) continue;
     const bool is_turned = term.verdict == Verdict::yes;
-    const double lack = lack_of(*compared, now.exits[exit].values) * (is_turned ? -1.0 : 1.0);
+    const double lack = lack_of(*compared, snapshot.exits[exit].values) * (is_turned ? -1.0 : 1.0);
     const auto index = static_cast<std::size_t>(compared - of.compared.begin());
-    const Trend trend = now.course.trend(index, lack, is_turned, period);
+    const Trend trend = snapshot.course.trend(index, lack, is_turned, period);
     term.left = trend.left;
     term.stood = trend.stood;
     term.stood_throughout = trend.is_whole;
