@@ -36,7 +36,7 @@ class MjcfWriter {
     text_ += "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n";
     text_ +=
         "<option integrator=\"Euler\" solver=\"Newton\" cone=\"elliptic\" impratio=\"10\" "
-        "tolerance=\"1e-12\" collision=\"predefined\"" +
+        "tolerance=\"1e-12\" mpr_tolerance=\"1e-9\" mpr_iterations=\"200\" collision=\"predefined\"" +
         attribute("timestep", text_of(period)) + attribute("gravity", list_of(first.gravity())) + "/>\n";
     text_ += "<default><geom contype=\"0\" conaffinity=\"0\" condim=\"3\" " + stiff() + "/></default>\n";
     write_assets();
