@@ -5,6 +5,7 @@
 #include "compare_files.hpp"
 #include "json_parts.hpp"
 #include "run_log.hpp"
+#include "told_events.hpp"
 #include "zwang/runtime/log_difference.hpp"
 
 namespace zwang::cli {
@@ -88,7 +89,7 @@ std::vector<Happening> transitions_of(const Series& series, bool with_reasons) {
 
 std::vector<Happening> events_of(const Series& series) {
   std::vector<Happening> all;
-  for (const runtime::LoggedEvent& e : series.events)
+  for (const runtime::LoggedEvent& e : told_events(series.log, series.events))
     all.push_back({e.time - series.log.begin, e.code + (e.signal.empty() ? "" : " " + e.signal)});
   return all;
 }

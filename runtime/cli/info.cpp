@@ -5,6 +5,7 @@
 
 #include "output.hpp"
 #include "run_log.hpp"
+#include "told_events.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
@@ -21,11 +22,6 @@ struct TaskBegin {
   std::string task;
 };
 
-struct ToldEvent {
-  double time = 0.0;  ///< [s]
-  std::string code, signal;
-};
-
 /// The events of a log, record by record.
 class Story {
  public:
@@ -38,13 +34,13 @@ class Story {
 
   void take(double time, std::span<const double> values) {
     const std::string_view task = word(values, task_), event = word(values, event_);
-    if (!event.empty()) events.push_back({time, std::string(event), std::string(word(values, signal_))});
+    if (!event.empty()) events.push_back({time, std::string(event), std::string(word(values, signal_)), 0.0});
     if (!task.empty() && (tasks.empty() || tasks.back().task != task))
       tasks.push_back({time, std::string(task)});
   }
 
   std::vector<TaskBegin> tasks;
-  std::vector<ToldEvent> events;
+  std::vector<runtime::LoggedEvent> events;
 
  private:
   std::string_view word(std::span<const double> values, std::size_t place) const {
@@ -54,33 +50,20 @@ class Story {
   std::size_t task_ = 0, event_ = 0, signal_ = 0;
 };
 
-/// The events as the run's report told them. While samples stay away, records repeat the time of the last
-/// one. A run that was cut off has no report: then those of the records.
-std::vector<ToldEvent> events_of(const runtime::LogContents& log, const std::vector<ToldEvent>& of_records) {
-  const auto report = log.conclusion.find("report");
-  if (report == log.conclusion.end()) return of_records;
-  const ordered_json told = ordered_json::parse(report->second, nullptr, false);
-  if (!told.is_object() || !told.contains("events") || !told["events"].is_array()) return of_records;
-  std::vector<ToldEvent> events;
-  for (const ordered_json& e : told["events"])
-    events.push_back({e.value("time", 0.0), e.value("code", ""), e.value("signal", "")});
-  return events;
-}
-
 ordered_json said_at_the_end(const runtime::LogContents& log, const std::string& what) {
   const auto said = log.conclusion.find(what);
   return said == log.conclusion.end() ? ordered_json(nullptr) : ordered_json(said->second);
 }
 
 ordered_json as_json(const std::string& file, const runtime::LogContents& log,
-                     const std::vector<TaskBegin>& tasks, const std::vector<ToldEvent>& events) {
+                     const std::vector<TaskBegin>& tasks, const std::vector<runtime::LoggedEvent>& events) {
   ordered_json files = ordered_json::array();
   for (const lang::Source& s : log.context.sources)
     files.push_back({{"name", s.path}, {"bytes", s.text.size()}});
   ordered_json begins = ordered_json::array();
   for (const TaskBegin& t : tasks) begins.push_back({{"time", t.time}, {"task", t.task}});
   ordered_json told = ordered_json::array();
-  for (const ToldEvent& e : events)
+  for (const runtime::LoggedEvent& e : events)
     told.push_back({{"time", e.time}, {"code", e.code}, {"signal", e.signal}});
   return {{"file", file},
           {"whole", log.closed && log.damage.empty()},
@@ -97,7 +80,7 @@ ordered_json as_json(const std::string& file, const runtime::LogContents& log,
 }
 
 std::string as_text(const std::string& file, const runtime::LogContents& log,
-                    const std::vector<TaskBegin>& tasks, const std::vector<ToldEvent>& events) {
+                    const std::vector<TaskBegin>& tasks, const std::vector<runtime::LoggedEvent>& events) {
   std::ostringstream out;
   out << file << ": " << (log.closed && log.damage.empty() ? "whole" : "damaged") << ", " << log.records
       << " records from " << with_unit(log.begin, "s") << " to " << with_unit(log.end, "s") << "\n";
@@ -122,7 +105,7 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
   for (const TaskBegin& t : tasks) {
     line("from " + with_unit(t.time, "s")) << "task `" << t.task << "`\n";
   }
-  for (const ToldEvent& e : events) {
+  for (const runtime::LoggedEvent& e : events) {
     line("at " + with_unit(e.time, "s", 6))
         << "event " << e.code << (e.signal.empty() ? "" : ", " + e.signal) << "\n";
   }
@@ -137,7 +120,7 @@ int info(const InfoArguments& arguments) {
   const runtime::LogContents log = runtime::read_log(
       arguments.file, [&story](double time, std::span<const double> values) { story.take(time, values); },
       [&story](const runtime::LogContents& head) { story.begin(head); });
-  const std::vector<ToldEvent> events = events_of(log, story.events);
+  const std::vector<runtime::LoggedEvent> events = told_events(log, story.events);
   if (arguments.format == Format::json) {
     print_data(as_json(arguments.file, log, story.tasks, events)
                    .dump(2, ' ', false, ordered_json::error_handler_t::replace) +

@@ -9,6 +9,7 @@
 #include "output.hpp"
 #include "report_page.hpp"
 #include "run_log.hpp"
+#include "told_events.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/series.hpp"
@@ -137,7 +138,7 @@ ordered_json page_data(const fs::path& log, const Series& series) {
   ordered_json tasks = ordered_json::array(), events = ordered_json::array();
   for (const runtime::Stretch& s : series.tasks)
     tasks.push_back({{"task", s.word}, {"begin", s.begin}, {"end", s.end}});
-  for (const runtime::LoggedEvent& e : series.events)
+  for (const runtime::LoggedEvent& e : told_events(series.log, series.events))
     events.push_back({{"time", e.time}, {"code", e.code}, {"signal", e.signal}, {"value", e.value}});
   const auto report = series.log.conclusion.find("report");
   ordered_json data = {{"format", 1},

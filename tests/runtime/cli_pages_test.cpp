@@ -103,6 +103,26 @@ TEST_F(Pages, CompareOfARunWithItselfFindsNothing) {
   EXPECT_GT(comparison["compared"].get<int>(), 200);
 }
 
+// The records of a run whose samples stay away repeat the time of the last one. The report has the true
+// times.
+TEST_F(Pages, TellEventsAtTheTimesOfTheReport) {
+  write("scene.yaml", "zwang_scene: 1\nfaults: [{at: 0.1 s, samples: lost}]\n");
+  EXPECT_EQ(run({"run", "go.yaml", "--log", "a", "--quiet"}).code, 1);
+  EXPECT_EQ(run({"run", "go.yaml", "--log", "b", "--quiet"}).code, 1);
+  ASSERT_EQ(run({"report", "a", "-o", "a.html"}).code, 0);
+  ASSERT_EQ(run({"report", "a", "--compare", "b", "-o", "both.html"}).code, 0);
+  const json page = data_of("a.html"), compared = data_of("both.html")["comparison"]["events"]["first"];
+  const json& told = page["report"]["events"];
+  ASSERT_GT(told.size(), 1u);
+  ASSERT_EQ(page["events"].size(), told.size());
+  ASSERT_EQ(compared.size(), told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(page["events"][i]["time"], told[i]["time"]);
+    EXPECT_EQ(compared[i]["time"], told[i]["time"].get<double>() - page["begin"].get<double>());
+  }
+  EXPECT_GT(told.back()["time"], page["end"]) << "no record has this time";
+}
+
 /// Two cells that hold, and one whose motor is lost: it is missed, and comes first.
 class MatrixPages : public Pages {
  protected:

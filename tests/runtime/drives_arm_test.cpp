@@ -179,5 +179,55 @@ TEST(HeldArm, ThatIsPressedIntoABoardIsNoRunaway) {
   EXPECT_NEAR(force, 30.0, 0.01 * 30.0);
 }
 
+const char* const lower_text = R"(
+zwang: 2
+robot: robots/mecanum_arm_base.yaml
+frames: {shoulder: {parent: shoulder_link, rpy: [180 deg, 0 deg, 0 deg]}}
+start: lower
+always:
+  constraints:
+    stand: {move: base, in: world, time_constant: 0.15 s, x: {position: here}, y: {position: here}, rz: {position: here}}
+    elbow: {move: shoulder, in: base, rz: {position: here, time_constant: 50 ms}}
+    upright: {move: tool, in: tool, rx: {position: here}, ry: {position: here}, rz: {position: here}, time_constant: 50 ms}
+tasks:
+  lower:
+    constraints:
+      hand: {move: tool, in: world, time_constant: 50 ms, x: {position: here}, y: {position: here}, z: {velocity: -4 cm/s, force: +-8 N, build_up: 200 ms}}
+    timeout: {after: 5 s, goto: done}
+)";
+
+// The tool stands 0.68 m high above objects of 0.6 m: nothing is touched on the first 6 cm. Then the driver
+// presses down with its 8 N, and F/K deep: 8 N/(100 kN/m) = 0.08 mm.
+TEST(HeldArm, PressesOnTheTopOfWhatStandsBelowIt) {
+  for (const char* shape : {"box: [0.4 m, 0.4 m, 0.6 m]", "cylinder: {radius: 0.2 m, height: 0.6 m}"}) {
+    const test::TemporaryFolder folder;
+    const fs::path scene = folder.path() / "scene.yaml";
+    std::ofstream(scene) << "zwang_scene: 1\nobjects:\n  table: {" << shape
+                         << ", at: [0.65 m, 0 m], fixed: true}\n";
+    const lang::Program program = load_text(lower_text, scene);
+    ScenePlant plant(program);
+    Runner runner(program);
+    Sensed sensed(program.robot.model, program.signals.size());
+    const auto frame = program.robot.model.find_frame("tool");
+    ASSERT_TRUE(frame);
+    const solver::Frame& tool = program.robot.model.frames()[static_cast<std::size_t>(*frame)];
+    double force = 0.0, height = 0.0;
+    while (!runner.finished() && plant.truth().time < 10.0) {
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      const Eigen::VectorXd& tau = runner.step(sensed);
+      height = solver::motion_of({tool.body, tool.pose_in_body, {}}, program.robot.model, plant.true_state())
+                   .pose.position.z();
+      if (height > 0.62) {
+        ASSERT_FALSE(plant.truth().objects[0].touched) << shape;
+      }
+      if (runner.state() == RunState::running) force = plant.truth().objects[0].force;
+      ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
+    }
+    EXPECT_EQ(runner.state(), RunState::done) << shape;
+    EXPECT_NEAR(force, 8.0, 0.1) << shape;
+    EXPECT_NEAR(height, 0.6 - 8.0 / 100e3, 0.5e-3) << shape;
+  }
+}
+
 }  // namespace
 }  // namespace zwang::runtime

@@ -8,7 +8,8 @@ import { seconds } from './units';
 const mostRows = 12;
 
 export function band(run: Run, clock: Moments): HTMLElement {
-  const percent = (time: number): string => `${(100 * time) / run.duration}%`;
+  // Samples that stay away let an event come after the last record.
+  const percent = (time: number): string => `${Math.min(100, (100 * time) / run.duration)}%`;
   const bar = (span: Span, text: string, kind: string, shown = text): HTMLElement => {
     const button = h('button', { class: `bar ${kind}`, title: `${text}: ${seconds(span[0])} to ${seconds(span[1])}`, onclick: () => clock.show(span[0]) }, shown);
     button.style.left = percent(span[0]);

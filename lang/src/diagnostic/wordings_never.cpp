@@ -367,6 +367,19 @@ Diagnostic leaves_freedoms(const Span& span, const std::string& path, int left, 
                      "y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}`, or write an axis as `free`");
 }
 
+Diagnostic coasts_on(const Span& span, const Coasting& c, const Span& driven) {
+  const std::string axis = c.driver.substr(c.driver.rfind('.') + 1);
+  const std::string rest = c.turns ? "rz: {velocity: 0 rad/s}" : axis + ": {velocity: 0 m/s}";
+  return with_related(warning("W646", span,
+                              "`" + c.task + "` " + (c.turns ? "turns" : "moves") + " the base with " +
+                                  figure(c.speed, c.turns ? "rad/s" : "m/s") + ", and no row of `" + c.next +
+                                  "` stops it: the motion goes on there",
+                              "give `" + c.next + "` a row `still: {move: base, in: base, level: 2, " + rest +
+                                  "}`; if it must stay free there, let `" + c.task +
+                                  "` end at rest, by a `position` or a `speed(base)` in its exit"),
+                      driven, "it is driven here");
+}
+
 Diagnostic circle_beyond_norm(const Span& span, const Circle& c, const Span& norm) {
   return with_related(warning("W615", span,
                               figure(c.speed, "m/s") + " at " + figure(c.rate, "rad/s") + " needs " +

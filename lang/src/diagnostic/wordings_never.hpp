@@ -145,6 +145,15 @@ Diagnostic box_for_norm(const Span& span, const Box& box, const Span& other);
 Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven);
 /// `left` of `all` freedoms of the base have no row beside the feature's.
 Diagnostic leaves_freedoms(const Span& span, const std::string& path, int left, int all);
+/// What a task drives by a velocity, and the task `next` has no row for.
+struct Coasting {
+  std::string task, driver;  ///< "turn", "turn.off.rz"
+  double speed = 0.0;        ///< [m/s] or [rad/s]
+  bool turns = false;
+  std::string next;
+};
+/// `span`: where the task leads to the next one. `driven`: the driver's value.
+Diagnostic coasts_on(const Span& span, const Coasting& coasting, const Span& driven);
 Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,
                            const std::string& link, const std::string& base);
 

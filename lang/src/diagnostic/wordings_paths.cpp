@@ -66,19 +66,21 @@ Diagnostic fillet_beyond_norm(const Span& span, const Fillet& f, const Span& nor
       declared, "the path is declared here");
 }
 
-Diagnostic fillet_beyond_push(const Span& span, const Fillet& f, double mass, const Span& norm,
+Diagnostic fillet_beyond_push(const Span& span, const Fillet& f, const FilletPush& push, const Span& norm,
                               const Span& declared) {
-  const double needed = mass * f.speed * f.speed / f.radius;
+  const double needed = push.mass * f.speed * f.speed / f.radius;
+  const std::string effect =
+      push.off > 0.0 ? "while its casters turn, the base comes off the path by some " + figure(push.off, "m")
+                     : "the base is slower, or leaves the path";
   return with_related(
       with_related(
           warning("W615", span,
                   figure(f.speed, "m/s") + " around a fillet of " + figure(f.radius, "m") + " takes up to " +
-                      figure(needed, "N") + " (" + figure(mass, "kg") + " x " +
+                      figure(needed, "N") + " (" + figure(push.mass, "kg") + " x " +
                       figure(f.speed * f.speed / f.radius, "m/s^2") + "), `" + f.norm + "` allows " +
-                      figure(f.most, "N") + ": the base is slower, or leaves the path",
-                  "drive with `" + at_most(std::sqrt(f.most * f.radius / mass), "m/s") + "`, give `" +
-                      f.path + "` a fillet of `" + at_least(mass * f.speed * f.speed / f.most, "m") +
-                      "`, or allow `" + at_least(needed, "N") + "`"),
+                      figure(f.most, "N") + ": " + effect,
+                  "drive with `" + at_most(push.slow, "m/s") + "`, give `" + f.path + "` a fillet of `" +
+                      at_least(push.wide, "m") + "`, or allow `" + at_least(push.strong, "N") + "`"),
           norm, "the norm of the force is limited here"),
       declared, "the path is declared here");
 }

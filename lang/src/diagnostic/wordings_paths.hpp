@@ -28,9 +28,14 @@ struct Fillet {
   double most = 0.0;    ///< [m/s^2] or [N]
 };
 Diagnostic fillet_beyond_norm(const Span& span, const Fillet& fillet, const Span& norm, const Span& declared);
-/// `mass`: the most that the base weighs across its way [kg].
-Diagnostic fillet_beyond_push(const Span& span, const Fillet& fillet, double mass, const Span& norm,
-                              const Span& declared);
+/// What a norm of the force makes of a fillet, and what would fit.
+struct FilletPush {
+  double mass = 0.0;                            ///< [kg] the most that the base weighs across its way
+  double off = 0.0;                             ///< [m] off the path while casters swivel; 0: for good
+  double slow = 0.0, wide = 0.0, strong = 0.0;  ///< [m/s], [m], [N]
+};
+Diagnostic fillet_beyond_push(const Span& span, const Fillet& fillet, const FilletPush& push,
+                              const Span& norm, const Span& declared);
 
 /// `length`: from the axle to the frame that is driven, in which the heading decays to a third [m]; 0: not
 /// known.

@@ -13,6 +13,8 @@
 //   entries(task)               1 where no way leads back to it, 0 where none leads from it to this task
 //   since(task)                 nothing where no way leads from it to this task
 //   an output                   its start, and each value that the file sets it to
+//   a signal of the scene       what its hinge or slide leaves it, and a force no less than its bias; five
+//                               standard deviations more either way
 //
 // A condition that also asks for `elapsed < t` has t in the place of the time.
 #include "physics/known_number.hpp"
@@ -49,6 +51,34 @@ Known known_output(const CheckContext& context, int index) {
     known.bounds.high = std::max(known.bounds.high, given);
   }
   return known;
+}
+
+/// How far an object's guide lets it go, as the signal measures it.
+Known known_travel(const SceneSignal& source, const SceneObject& object, double noise) {
+  const Guide& guide = *object.guide;
+  Known known{
+      {guide.lower - noise, guide.upper + noise}, "the range of `" + object.name + "`", object.span, true};
+  if (!source.beyond) return known;
+  const bool is_reached =
+      *source.beyond < 0.0 ? guide.lower <= *source.beyond : guide.upper >= *source.beyond;
+  known.bounds = {0.0, is_reached ? 1.0 : 0.0};
+  return known;
+}
+
+/// Of an object that its guide holds, or of a force between two that touch.
+Known known_signal(const std::string& name, const std::optional<Scene>& scene) {
+  constexpr double most_deviations = 5.0;  // of a normal noise, once in a million samples
+  if (!scene) return {};
+  const auto at = std::find_if(scene->signals.begin(), scene->signals.end(),
+                               [&](const SceneSignal& source) { return source.name == name; });
+  if (at == scene->signals.end() || at->object < 0) return {};
+  const auto k = static_cast<std::size_t>(at->object);
+  const double noise = most_deviations * std::max(at->noise, at->angle_noise);
+  const bool is_object = k < scene->objects.size();
+  if (at->kind == SceneSignalKind::travel && is_object && scene->objects[k].guide)
+    return known_travel(*at, scene->objects[k], noise);
+  if (at->kind != SceneSignalKind::force || at->beyond) return {};
+  return {{std::min(0.0, at->bias) - noise, solver::infinity}, "a push of two that touch", at->span, true};
 }
 
 }  // namespace
@@ -127,6 +157,9 @@ Known KnownNumbers::of(const ExpressionNode& node) {
       return known_feature(node);
     case Op::output:
       return known_output(context_, node.index);
+    case Op::signal:
+      return known_signal(context_.symbols.signals[static_cast<std::size_t>(node.index)].signal.name,
+                          all_.scene);
     default:
       return {};
   }

@@ -35,6 +35,8 @@ std::string name_measured(const CheckContext& context, const PlannedTask& plan, 
       break;
     case Op::output:
       return context.symbols.outputs[static_cast<std::size_t>(node.index)].output.name;
+    case Op::signal:
+      return context.symbols.signals[static_cast<std::size_t>(node.index)].signal.name;
     default:
       return "elapsed";
   }
@@ -56,6 +58,10 @@ std::string unit_measured(const CheckContext& context, const PlannedTask& plan, 
   if (node.op == Op::feature)
     return context.symbols.features[static_cast<std::size_t>(node.index)].feature.turns ? "rad" : "m";
   if (node.op == Op::output) return "";
+  if (node.op == Op::signal) {
+    const SignalSymbol& signal = context.symbols.signals[static_cast<std::size_t>(node.index)];
+    return signal.signal.type == SignalType::number ? usual_unit(signal.dimension) : "";
+  }
   const PlannedAxis* axis = axis_measured(context, plan, node);
   const auto which = axis != nullptr && axis->turns() ? solver::Axis::rz : solver::Axis::x;
   const solver::Quantity quantity = node.what == CoordinateQuantity::position   ? solver::Quantity::position

@@ -1,6 +1,7 @@
 // W615: a fillet of radius r at v needs v^2/r towards its centre. Where `plane` allows less, the base leaves
-// the path, or slows down. A push of M v^2/r takes it around. M is the most that the base weighs across its
-// way: on driven casters the swivels count that turn into the fillet. A force of `plane` bounds that push.
+// the path, or slows down. A push of m v^2/r takes it around. A force of `plane` bounds that push. On driven
+// casters the swivels that turn into the fillet weigh, too: M v^2/r for a moment. It counts where the base
+// comes off the path by more than 1 mm while they turn (swivel_lag.hpp).
 //
 // N622: on a base of two freedoms x and y of a point ahead of the axle take both. The heading r against a
 // straight path is left over. With the point l ahead, dr/dx = -sin(r)/l, so r decays with exp(-x/l).
@@ -8,6 +9,7 @@
 
 #include "diagnostic/wordings_paths.hpp"
 #include "physics/questions.hpp"
+#include "physics/swivel_lag.hpp"
 
 namespace zwang::lang {
 
@@ -48,13 +50,59 @@ const Path* path_of(const CheckContext& context, const PlannedAxis& axis) {
 
 namespace {
 
-/// The most that the base weighs in the plane; infinite where its wheels hold it. [kg]
-double most_mass_across(Probe& probe) {
+constexpr double exact = 1e-3;  // [m] a path without the norm is as exact on every base that ships
+
+/// What the base weighs across its way; nullopt where its wheels hold it.
+std::optional<Rounding> rounding_of(double speed, double radius, double most_push, Probe& probe) {
   PlannedAxis base;
   base.move = base.in = {0, {}, {}};
   base.axis = Axis::y;
   const AxisFigures* figures = probe.figures(base);
-  return figures == nullptr ? solver::infinity : figures->most_mass;
+  if (figures == nullptr || !std::isfinite(figures->most_mass)) return std::nullopt;
+  return Rounding{
+      speed,    radius, figures->least_mass, figures->most_mass, trail_of_swivels(probe.robot().model),
+      most_push};
+}
+
+/// Along all of the fillet, not just while casters swivel.
+bool is_off_for_good(const Rounding& r) {
+  const double mass = r.trail > 0.0 ? r.least_mass : r.most_mass;
+  return mass * r.speed * r.speed / r.radius > r.most_push * rounding;
+}
+
+/// Off by more than is exact, or for good.
+bool leaves(const Rounding& r) {
+  const double a = r.speed * r.speed / r.radius;
+  return is_off_for_good(r) || (r.most_mass * a > r.most_push && off_the_path(r) > exact);
+}
+
+/// The value between both at which the base just does not leave the path. `bad` leaves it, `good` does not.
+template <typename Set>
+double just_stays(const Rounding& r, double bad, double good, const Set& set) {
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (bad + good);
+    Rounding tried = r;
+    set(tried, middle);
+    (leaves(tried) ? bad : good) = middle;
+  }
+  return good;
+}
+
+void ask_push(const PlannedAxis& axis, const Path& path, double speed, const PlannedNorm& norm, Probe& probe,
+              Remarks& remarks) {
+  const std::optional<Rounding> r = rounding_of(speed, path.least_radius(), norm.most, probe);
+  if (!r || !leaves(*r)) return;
+  const double needed = r->most_mass * speed * speed;
+  const double slow = just_stays(*r, speed, std::sqrt(norm.most * r->radius / r->most_mass),
+                                 [](Rounding& tried, double value) { tried.speed = value; });
+  const double wide = just_stays(*r, r->radius, needed / norm.most,
+                                 [](Rounding& tried, double value) { tried.radius = value; });
+  const double strong = just_stays(*r, norm.most, needed / r->radius,
+                                   [](Rounding& tried, double value) { tried.most_push = value; });
+  remarks.add(wording::fillet_beyond_push(
+      axis.driver_span(), {path.name, r->radius, speed, norm.path, norm.most},
+      {r->most_mass, is_off_for_good(*r) ? 0.0 : off_the_path(*r), slow, wide, strong}, norm.span,
+      path.span));
 }
 
 }  // namespace
@@ -73,11 +121,7 @@ void ask_path(const CheckContext& context, const PlannedTask& plan, Probe& probe
     for (const PlannedNorm& norm : plan.force_norms) {
       if (norm.move.body != axis.move.body || axis.move.body != 0 || !(norm.most > 0.0) || speed == 0.0)
         continue;
-      const double mass = most_mass_across(probe);
-      if (!std::isfinite(mass) || mass * speed * speed / radius <= norm.most * rounding) continue;
-      remarks.add(wording::fillet_beyond_push(axis.driver_span(),
-                                              {path->name, radius, speed, norm.path, norm.most}, mass,
-                                              norm.span, path->span));
+      ask_push(axis, *path, speed, norm, probe, remarks);
     }
   }
 }

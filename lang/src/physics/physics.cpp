@@ -84,7 +84,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_exits_of_task(context, index, plan, asked, probe, remarks);
   ask_reach(plan, probe, remarks);
   ask_steering(context, plan, asked.held_steerings, probe, remarks);
-  ask_hopping(plan, asked.scene, probe, remarks);
+  ask_hopping(context, plan, asked.conditions, asked.all, probe, remarks);
   ask_square(plan, asked.held_steerings, asked.floor_friction, probe, remarks);
   ask_turned_slowly(context, plan, asked.conditions.of_tasks[index], probe, remarks);
   ask_freedoms(plan, probe, remarks);
@@ -93,6 +93,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_still(plan, probe, remarks);
   ask_distance(plan, probe, remarks);
   ask_left_over(context, plan, probe, remarks);
+  ask_coasting(context, plan, asked.all, asked.conditions.of_tasks[index], probe, remarks);
   ask_top_speed(plan, *context.robot, remarks);
   ask_plane(plan, probe, remarks);
   ask_path(context, plan, probe, remarks);

@@ -33,6 +33,12 @@ class Remarks {
   std::map<Place, std::set<std::string>> said_;
 };
 
+/// The tasks and the scene that an exit depends on beside its own task.
+struct AllTasks {
+  std::vector<PlannedTask> plans;  ///< of all tasks, as they are written
+  const std::optional<Scene>& scene;
+};
+
 /// The path that the axis turns with; nullptr without one.
 const Path* path_of(const CheckContext& context, const PlannedAxis& axis);
 
@@ -74,6 +80,9 @@ void ask_yield_axes(const CheckContext& context, const PlannedTask& plan, const 
                     Remarks& remarks);
 /// W646: freedoms of the base that a task of features leaves to nothing.
 void ask_left_over(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W646: what the task drives, and a task that it leads to leaves to nothing. `conditions`: of its exits.
+void ask_coasting(const CheckContext& context, const PlannedTask& plan, const AllTasks& all,
+                  const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
 /// N616: targets on a pose signal that are trailed.
 void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
@@ -91,9 +100,9 @@ std::vector<int> held_steerings(const CheckContext& context, const solver::Model
 /// W643: motion that the wheels hold while nothing steers them.
 void ask_steering(const CheckContext& context, const PlannedTask& plan, const std::vector<int>& held,
                   Probe& probe, Remarks& remarks);
-/// W645: a push across the way of driven casters.
-void ask_hopping(const PlannedTask& plan, const std::optional<Scene>& scene, const Probe& probe,
-                 Remarks& remarks);
+/// W645: a push across the way of driven casters, at what stands where the base may come.
+void ask_hopping(const CheckContext& context, const PlannedTask& plan, const ExitConditions& conditions,
+                 const AllTasks& all, Probe& probe, Remarks& remarks);
 /// E621, W621: a heading that a wall is to turn, and cannot. `floor_friction`: of the scene.
 void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings, double floor_friction,
                 Probe& probe, Remarks& remarks);
@@ -101,11 +110,6 @@ void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings,
 void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,
                        const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
 
-/// The tasks and the scene that an exit depends on beside its own task.
-struct AllTasks {
-  std::vector<PlannedTask> plans;  ///< of all tasks, as they are written
-  const std::optional<Scene>& scene;
-};
 /// W511: exits that the ranges in force decide. `exits` are those of the plan's task, or of `always`.
 void ask_exits(const CheckContext& context, const PlannedTask& plan, const std::vector<ExitText>& exits,
                const std::vector<Condition>& conditions, const AllTasks& all, Probe& probe, Remarks& remarks);

@@ -37,7 +37,7 @@ class MjcfWriter {
     text_ += "<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n";
     text_ +=
         "<option integrator=\"Euler\" solver=\"Newton\" cone=\"elliptic\" impratio=\"10\" "
-        "tolerance=\"1e-12\" collision=\"predefined\"" +
+        "tolerance=\"1e-12\" mpr_tolerance=\"1e-9\" mpr_iterations=\"200\" collision=\"predefined\"" +
         attribute("timestep", text_of(period)) + attribute("gravity", list_of(first.gravity())) + "/>\n";
     text_ += "<default><geom contype=\"0\" conaffinity=\"0\" condim=\"3\" " + stiff() + "/></default>\n";
     write_assets();
@@ -119,6 +119,7 @@ class MjcfWriter {
       text_ += inertial(inertia_of(mass, g));
     }
     if (is_met(object)) object.leans() ? write_leaning_faces(object, g, name) : write_faces(g, name);
+    if (has_tips()) write_solid(g, name);
     text_ += "</body>\n";
   }
 
@@ -135,6 +136,17 @@ class MjcfWriter {
              attribute("damping", text_of(guide.damping)) +
              " solreflimit=\"0.004 1\" solimplimit=\"0.95 0.99 0.001\"/>\n";
     text_ += inertial(inertia_of(*object.mass, g));
+  }
+
+  bool has_tips() const {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [](const SimulatedRobot& robot) { return !robot.tips.empty(); });
+  }
+
+  /// As large as it is: an arm may reach above it, or press on its top.
+  void write_solid(const ObjectGeometry& g, const std::string& name) {
+    text_ += "<geom" + attribute("name", name + "_solid") + attribute("type", g.round ? "cylinder" : "box") +
+             attribute("size", g.round ? list_of(g.half.x(), g.half.z()) : list_of(g.half)) + "/>\n";
   }
 
   /// A round object is met as the sphere that its circle in the bumper's plane belongs to.
@@ -189,9 +201,8 @@ class MjcfWriter {
     for (const RobotText& robot : texts_) text_ += robot.contacts;
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
       for (const SimulatedRobot& robot : robots_) {
-        if (!is_met(scene_.objects[k], robot)) continue;
-        if (!robot.outline.empty()) write_meeting_of_robot(k, robot);
         for (std::size_t t = 0; t < robot.tips.size(); ++t) write_meeting_of_tip(k, robot, t);
+        if (is_met(scene_.objects[k], robot) && !robot.outline.empty()) write_meeting_of_robot(k, robot);
       }
       for (std::size_t other = 0; other < k; ++other) {
         if (meet(k, other) && is_met(scene_.objects[k]) && is_met(scene_.objects[other]))
@@ -265,10 +276,8 @@ class MjcfWriter {
       write_spring(edge_of(k, c), prism, pair_friction(object.friction));
   }
 
-  /// A round object is met in the bumper's plane only, where no arm reaches.
   void write_meeting_of_tip(std::size_t k, const SimulatedRobot& robot, std::size_t tip) {
-    if (scene_.objects[k].shape == ShapeKind::cylinder) return;
-    write_spring(numbered("object", k) + "_face", robot.named("tip", tip),
+    write_spring(numbered("object", k) + "_solid", robot.named("tip", tip),
                  pair_friction(scene_.objects[k].friction));
   }
 
