@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace zwang::runtime {
 
 GuardedExits::GuardedExits(const std::vector<lang::Exit>& given, int owner_task)
     : exits(given), owner(owner_task), compared(comparisons(given)) {
   for (const lang::Exit& exit : exits) decisions.emplace_back(exit.when, numbers);
+  for (const Compared& one : compared) {
+    const lang::Condition& condition = exits[one.exit].when;
+    sides.push_back({numbers.add(condition, one.left), numbers.add(condition, one.right)});
+  }
 }
 
 Guards::Guards(std::size_t most_exits, std::size_t most_nodes, std::size_t most_compared, double period,
                Unknown unknown)
-    : states_(most_exits),
-      values_(most_nodes),
-      course_(most_compared),
-      period_(period),
-      unknown_(unknown) {}
+    : states_(most_exits), values_(most_nodes), course_(most_compared), period_(period), unknown_(unknown) {}
 
 void Guards::restart() noexcept {
   std::fill(states_.begin(), states_.end(), GuardState{});
@@ -45,15 +44,14 @@ void Guards::advance(GuardedExits& guarded, const Facts& facts,
   if (course_.advance()) keep(guarded, facts);
 }
 
-/// A decision has no values: the conditions that compare are evaluated whole.
+/// Of all comparisons, those too that are behind what decided a condition.
 void Guards::keep(GuardedExits& guarded, const Facts& facts) noexcept {
-  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::size_t evaluated = none;
+  const auto value_of = [&](int number) {
+    return guarded.numbers.look_up(number, guarded.owner, facts).value;
+  };
   for (std::size_t i = 0; i < guarded.compared.size(); ++i) {
-    const Compared& compared = guarded.compared[i];
-    if (compared.exit != evaluated) evaluate(guarded.exits[compared.exit].when, guarded.owner, facts, values_);
-    evaluated = compared.exit;
-    course_.keep(i, lack_of(compared, values_));
+    const auto& [left, right] = guarded.sides[i];
+    course_.keep(i, lack_between(value_of(left), value_of(right), guarded.compared[i].wants_less));
   }
 }
 

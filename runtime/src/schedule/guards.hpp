@@ -1,6 +1,7 @@
 /// The exits of the active task, or those of `always`, and what they remember from tick to tick.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ struct GuardedExits {
   const std::vector<lang::Exit>& exits;
   int owner;  ///< as for Facts
   std::vector<Compared> compared;
+  std::vector<std::array<int, 2>> sides;  ///< of each comparison its left and right side, among `numbers`
   SharedNumbers numbers;
   std::vector<Decision> decisions;  ///< of each exit
 };
@@ -61,7 +63,7 @@ class Guards {
   std::vector<GuardState> states_;
   void keep(GuardedExits& guarded, const Facts& facts) noexcept;
 
-  std::vector<double> values_;  ///< of the nodes of one condition
+  std::vector<double> values_;  ///< of one condition's decision
   WaitCourse course_;
   double period_;
   Unknown unknown_;

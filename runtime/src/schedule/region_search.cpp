@@ -28,9 +28,11 @@ solver::FrameMotion seen_from(const solver::FrameMotion& t, const solver::FrameM
           to_axes * (f.linear - t.linear - t.angular.cross(offset))};
 }
 
-/// How many features a stretch has: with the square root of all of them, a search looks at the fewest.
+/// How many features a stretch has: with the square root of all of them, a search looks at the fewest. To
+/// pass over a stretch costs as much as some three features.
 int stretch_of(std::size_t count) {
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
+  constexpr int least = 8;
+  return std::max(least, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
 }
 
 /// A circle around the points: about the middle of their box.

@@ -134,8 +134,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   in_reach.resize(fences.size());
   plane_readings.resize(planes.size());
   press_x = press_y = Eigen::VectorXd::Zero(6 + model.joint_count());
-  const std::size_t most_wanted = tasks.most_axes + RegionFence::most_near * fences.size() +
-                                  PlaneNorm::most_sides * planes.size();
+  const std::size_t most_wanted =
+      tasks.most_axes + RegionFence::most_near * fences.size() + PlaneNorm::most_sides * planes.size();
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
   renewed.reserve(2 * most_wanted);
