@@ -203,12 +203,16 @@ int sweep(const SweepArguments& arguments) {
     store.put(record);
     progress.count(record);
   };
-  calls.wait = [&] { progress.show(); };
+  calls.wait = [&] {
+    store.keep();
+    progress.show();
+  };
   if (others) {
     study::run_with_ranks(cells, settings, calls, identity, *others);
   } else {
     study::run_all(cells, settings, calls);
   }
+  store.keep();
   progress.end();
 
   const std::vector<study::CellRecord> records = store.records(runs);

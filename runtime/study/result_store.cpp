@@ -11,6 +11,8 @@ namespace zwang::study {
 
 namespace {
 
+constexpr std::size_t most_pending = 256;  // cells of a transaction: a commit costs as much as ten of them
+
 /// A name as SQL takes it, whatever is in it.
 std::string in_quotes(const std::string& name) {
   std::string out = "\"";
@@ -30,33 +32,6 @@ std::vector<std::string> columns_of(const StudyIdentity& identity) {
   }
   return columns;
 }
-
-}  // namespace
-
-struct ResultStore::Database {
-  explicit Database(const std::string& file) : path(file) {
-    if (sqlite3_open(path.c_str(), &handle) == SQLITE_OK) return;
-    const std::string why = handle != nullptr ? sqlite3_errmsg(handle) : "out of memory";
-    sqlite3_close(handle);
-    throw std::runtime_error(path + ": " + why);
-  }
-  ~Database() { sqlite3_close(handle); }
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
-
-  void require(int code) const {
-    if (code != SQLITE_OK && code != SQLITE_DONE && code != SQLITE_ROW)
-      throw std::runtime_error(path + ": " + sqlite3_errmsg(handle));
-  }
-  void run(const std::string& sql) const {
-    require(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr));
-  }
-
-  std::string path;
-  sqlite3* handle = nullptr;
-};
-
-namespace {
 
 /// A statement with its values, given and taken in their order.
 class Statement {
@@ -78,6 +53,12 @@ class Statement {
   void give(const std::optional<double>& number) {
     ++given_;
     if (number && !std::isnan(*number)) sqlite3_bind_double(statement_, given_, *number);
+  }
+  /// For other values.
+  void begin_again() {
+    sqlite3_reset(statement_);
+    sqlite3_clear_bindings(statement_);
+    given_ = 0;
   }
   /// Whether there is a row.
   bool step() {
@@ -149,6 +130,34 @@ std::string fingerprint_in(sqlite3* handle, const std::string& path) {
 
 }  // namespace
 
+struct ResultStore::Database {
+  explicit Database(const std::string& file) : path(file) {
+    if (sqlite3_open(path.c_str(), &handle) == SQLITE_OK) return;
+    const std::string why = handle != nullptr ? sqlite3_errmsg(handle) : "out of memory";
+    sqlite3_close(handle);
+    throw std::runtime_error(path + ": " + why);
+  }
+  ~Database() {
+    insert.reset();
+    sqlite3_close(handle);
+  }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void require(int code) const {
+    if (code != SQLITE_OK && code != SQLITE_DONE && code != SQLITE_ROW)
+      throw std::runtime_error(path + ": " + sqlite3_errmsg(handle));
+  }
+  void run(const std::string& sql) const {
+    require(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr));
+  }
+
+  std::string path;
+  sqlite3* handle = nullptr;
+  std::optional<Statement> insert;  ///< a cell
+  std::size_t pending = 0;          ///< cells of the open transaction
+};
+
 StudyIdentity identity_of(const lang::Study& study, const std::string& fingerprint) {
   StudyIdentity identity{fingerprint, {}, {}, study.claims};
   for (const lang::Draw& draw : study.draws) {
@@ -170,7 +179,15 @@ ResultStore::ResultStore(const std::string& path, const StudyIdentity& identity)
                              "keep it and name another one with --out, or begin anew with --fresh");
   // Readers do not wait for the writer. A commit need not reach the disk at once: the log does.
   database_->run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
-  if (!found.empty()) return;
+  if (found.empty()) make_tables();
+  std::string places = "?";
+  for (std::size_t i = 1; i < columns_of(identity).size(); ++i) places += ", ?";
+  database_->insert.emplace(handle, database_->path, "INSERT OR REPLACE INTO cells VALUES (" + places + ")");
+}
+
+void ResultStore::make_tables() {
+  const StudyIdentity& identity = identity_;
+  sqlite3* handle = database_->handle;
   std::string columns;
   for (const std::string& column : columns_of(identity)) columns += (columns.empty() ? "" : ", ") + column;
   database_->run(
@@ -200,7 +217,12 @@ ResultStore::ResultStore(const std::string& path, const StudyIdentity& identity)
   database_->run("COMMIT");
 }
 
-ResultStore::~ResultStore() = default;
+ResultStore::~ResultStore() {
+  try {
+    keep();
+  } catch (const std::exception&) {  // cells that are not kept run again
+  }
+}
 
 std::set<std::size_t> ResultStore::cells() const {
   Statement rows(database_->handle, database_->path, "SELECT cell FROM cells");
@@ -210,12 +232,18 @@ std::set<std::size_t> ResultStore::cells() const {
 }
 
 void ResultStore::put(const CellRecord& record) {
-  const std::size_t count = columns_of(identity_).size();
-  std::string places = "?";
-  for (std::size_t i = 1; i < count; ++i) places += ", ?";
-  Statement insert(database_->handle, database_->path,
-                   "INSERT OR REPLACE INTO cells VALUES (" + places + ")");
-  put_into(insert, record);
+  Database& d = *database_;
+  if (d.pending == 0) d.run("BEGIN IMMEDIATE");
+  d.insert->begin_again();
+  put_into(*d.insert, record);
+  if (++d.pending == most_pending) keep();
+}
+
+void ResultStore::keep() {
+  if (database_->pending == 0) return;
+  database_->insert->begin_again();
+  database_->run("COMMIT");
+  database_->pending = 0;
 }
 
 std::vector<CellRecord> ResultStore::records(std::size_t runs) const {
@@ -230,9 +258,8 @@ void ResultStore::merge(const std::string& path) {
   // Otherwise an empty one would be made.
   if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
   const ResultStore other(path, identity_);
-  database_->run("BEGIN IMMEDIATE");
   for (const CellRecord& record : other.records(lang::most_cells_of_a_study)) put(record);
-  database_->run("COMMIT");
+  keep();
 }
 
 }  // namespace zwang::study

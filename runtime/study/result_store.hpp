@@ -27,14 +27,17 @@ class ResultStore {
   ~ResultStore();
 
   std::set<std::size_t> cells() const;
-  /// Kept at once: a process that is killed right behind this loses nothing.
+  /// Kept by the next `keep`, and by each 256th cell: a process that is killed loses no more.
   void put(const CellRecord& record);
+  /// What was put is on its way to the disk, and others can read it.
+  void keep();
   /// In the order of the cells, below `runs`.
   std::vector<CellRecord> records(std::size_t runs) const;
   /// All cells of another file of the same study. Throws as the constructor does.
   void merge(const std::string& path);
 
  private:
+  void make_tables();
   struct Database;
   std::unique_ptr<Database> database_;
   StudyIdentity identity_;

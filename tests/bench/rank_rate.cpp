@@ -1,9 +1,12 @@
 // The number of cells a second that rank 0 of an MPI job hands out and keeps, if a cell takes no time.
 //
-//   mpirun --mca btl tcp,self -n 2 rank_rate LIBRARY     with LIBRARY the path of zwang_mpi.so
-// The other rank stands for sixty-four: so many records are on their way at once.
+// Over TCP, as between machines. The other rank stands for sixty-four: so many records are on their way at
+// once. Without a job it starts mpirun with two processes of itself.
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <numeric>
 #include <string>
@@ -43,14 +46,14 @@ void answer_at_once(study::Messages& messages) {
 }
 
 /// [s] until all cells are kept.
-double time_of(study::Messages& messages, const std::function<void(const study::CellRecord&)>& keep) {
+double time_of(study::Messages& messages, study::ResultStore& store) {
   std::vector<std::size_t> numbers(cells);
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   study::WorkCalls calls;
   calls.run = no_op;
-  calls.done = keep;
+  calls.done = [&](const study::CellRecord& record) { store.put(record); };
   calls.wants_to_stop = [] { return false; };
-  calls.wait = [] {};
+  calls.wait = [&] { store.keep(); };
   const auto start = Clock::now();
   study::run_with_ranks(numbers, {.processes = 0}, calls, identity, messages);
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -58,10 +61,15 @@ double time_of(study::Messages& messages, const std::function<void(const study::
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  if (count != 2) return 2;
-  const auto messages = study::messages_of_job(arguments[1]);
-  if (!messages || messages->size() != 2) return 2;
+int main(int, char** arguments) {
+  const auto messages = study::messages_of_job(ZWANG_MPI_LIBRARY);
+  if (!messages) {
+    execlp("mpirun", "mpirun", "--allow-run-as-root", "--oversubscribe", "--mca", "btl", "tcp,self", "-n",
+           "2", arguments[0], nullptr);
+    std::perror("mpirun");
+    return 2;
+  }
+  if (messages->size() != 2) return 2;
   if (messages->rank() > 0) {
     answer_at_once(*messages);
     return 0;
@@ -73,8 +81,9 @@ int main(int count, char** arguments) {
     made.units.emplace_back();
   }
   study::ResultStore store((folder.path() / "cells.db").string(), made);
-  const double time = time_of(*messages, [&](const study::CellRecord& record) { store.put(record); });
+  const double time = time_of(*messages, store);
   const double rate = static_cast<double>(cells) / time;
-  std::printf("rank 0 keeps %.0f no-op cells/s, goal %.0f%s\n", rate, goal, rate < goal ? ", MISSED" : "");
+  std::printf("rank 0 keeps %.0f no-op cells/s, goal %.0f%s\n", rate, goal,
+              rate < goal ? ", MISSED" : ", pass");
   return rate < goal ? 1 : 0;
 }

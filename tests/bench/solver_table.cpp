@@ -139,7 +139,7 @@ void print_comparisons(const std::string& program, const std::vector<Comparison>
       const bool is_good = c.as_share ? judged <= *c.goal : judged >= *c.goal;
       all_good = all_good && is_good;
       std::printf("; by %s %.2f, goal %g%s", is_counted ? "instructions" : "time", judged, *c.goal,
-                  is_good ? "" : ", MISSED");
+                  is_good ? ", pass" : ", MISSED");
     }
     std::printf("\n");
     std::fflush(stdout);

@@ -38,12 +38,12 @@ constexpr std::size_t ticks_between_reloads = 5000;
 
 bool all_good = true;
 
-/// "goal 38, missed" where the figure is above it.
+/// "goal 38, MISSED" where the figure is above it.
 std::string judged(double figure, double goal) {
   const bool is_good = figure <= goal;
   all_good = all_good && is_good;
   char text[64];
-  std::snprintf(text, sizeof(text), "goal %g%s", goal, is_good ? "" : ", MISSED");
+  std::snprintf(text, sizeof(text), "goal %g%s", goal, is_good ? ", pass" : ", MISSED");
   return text;
 }
 

@@ -77,6 +77,18 @@ TEST_F(Store, KeepsEveryBit) {
   EXPECT_EQ(again.records(7).size(), 1u);
 }
 
+/// Another process reads while the file grows: as far as it is kept.
+TEST_F(Store, ShowsOthersWhatIsKept) {
+  ResultStore store(file("a.db"), made_identity("1"));
+  const ResultStore reader(file("a.db"), made_identity("1"));
+  store.put(made_record(3));
+  EXPECT_TRUE(reader.cells().empty());
+  store.keep();
+  EXPECT_EQ(reader.cells(), (std::set<std::size_t>{3}));
+  for (std::size_t cell = 10; cell < 10 + 256; ++cell) store.put(made_record(cell));
+  EXPECT_EQ(reader.cells().size(), 257u);
+}
+
 TEST_F(Store, OfAnotherStudyIsRefused) {
   { const ResultStore store(file("a.db"), made_identity("1")); }
   EXPECT_THROW(ResultStore(file("a.db"), made_identity("2")), std::runtime_error);

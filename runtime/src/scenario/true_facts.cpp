@@ -94,9 +94,8 @@ void TrueFacts::look_at_regions() noexcept {
     RegionFence& fence = regions_[r];
     fence.update(base, frames_.motions().of(frames_.attached(parent)), 0.0);
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t p = 0; p < fence.pair_count(); ++p) {
-      if (fence.faces(p)) least = std::min(least, fence.approach(p).left);
-    }
+    fence.find_facing(least, least);
+    for (const std::size_t pair : fence.facing()) least = std::min(least, fence.approach(pair).left);
     values[r] = least;
   }
 }

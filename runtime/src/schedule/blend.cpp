@@ -22,6 +22,11 @@ unsigned ranges_of(const AxisConstraint& c) {
          (c.acceleration ? acceleration_bit : 0U) | (c.force ? force_bit : 0U);
 }
 
+/// Of a boundary other pairs of features may have come near since.
+bool is_same_statement(const Origin& a, const Origin& b) {
+  return a.task == b.task && a.group == b.group && a.axis == b.axis;
+}
+
 /// A boundary's ranges come and go with its distance: it carries whatever there is.
 unsigned ranges_of(const Wanted& wanted) {
   return wanted.fence ? all_bits : ranges_of(wanted.constraint);
@@ -153,6 +158,8 @@ void Blend::recall(std::size_t set) noexcept {
   KeptList& all = kept_[set];
   for (Kept& kept : all) {
     if (kept.place >= 0) kept.constraint = put[static_cast<std::size_t>(kept.place)];
+    if (kept.place >= 0 && kept.fence)
+      kept.origin = sets_[set].in_force[static_cast<std::size_t>(kept.place)].origin;
     kept.constraint.position_horizon = kept.constraint.velocity_horizon = solver::limit_horizon;
     if (kept.joins != 0U) kept.always = false;
   }
@@ -238,7 +245,7 @@ int Blend::match(const Kept& kept, const std::vector<Wanted>& wanted) const noex
   const auto is_match = [&](std::size_t i) {
     const Wanted& w = wanted[i];
     if (taken_[i] != 0 || (w.far && !w.always)) return false;
-    if (kept.always || w.always) return kept.always && w.always && kept.origin == w.origin;
+    if (kept.always || w.always) return kept.always && w.always && is_same_statement(kept.origin, w.origin);
     const AxisConstraint& a = kept.constraint;
     const AxisConstraint& b = w.constraint;
     return measures_alike(a, b) && a.level == b.level && (same(kept.move, w.move) || same(a.move, b.move)) &&

@@ -35,8 +35,35 @@ bool is_name(Op op) {
   return op >= Op::parameter && op <= Op::estimated_wrench;
 }
 
-double apply(Op op, double a, double b) {
+bool is_same_number(const lang::ExpressionNode& a, const lang::ExpressionNode& b) {
+  return a.op == b.op && a.number == b.number && a.index == b.index && a.axis == b.axis &&
+         a.function == b.function && a.in_always == b.in_always && a.what == b.what && a.left == b.left &&
+         a.right == b.right;
+}
+
+bool is_comparison(Op op) {
+  return op >= Op::less && op <= Op::greater_equal;
+}
+
+bool is_combination(Op op) {
+  return op >= Op::logical_and && op <= Op::logical_not;
+}
+
+inline double compare(Op op, double a, double b) {
   const bool known = !std::isnan(a) && !std::isnan(b);
+  switch (op) {
+    case Op::less:
+      return truth(known, a < b);
+    case Op::less_equal:
+      return truth(known, a <= b);
+    case Op::greater:
+      return truth(known, a > b);
+    default:
+      return truth(known, a >= b);
+  }
+}
+
+double apply(Op op, double a, double b) {
   switch (op) {
     case Op::abs:
       return std::abs(a);
@@ -51,13 +78,10 @@ double apply(Op op, double a, double b) {
     case Op::divide:
       return number(a / b);
     case Op::less:
-      return truth(known, a < b);
     case Op::less_equal:
-      return truth(known, a <= b);
     case Op::greater:
-      return truth(known, a > b);
     case Op::greater_equal:
-      return truth(known, a >= b);
+      return compare(op, a, b);
     case Op::logical_and:
       return both(a, b);
     case Op::logical_or:
@@ -67,11 +91,6 @@ double apply(Op op, double a, double b) {
     default:  // names and constants have no operands
       return unknown;
   }
-}
-
-bool is_same_name(const lang::ExpressionNode& a, const lang::ExpressionNode& b) {
-  return a.op == b.op && a.number == b.number && a.index == b.index && a.axis == b.axis &&
-         a.function == b.function && a.in_always == b.in_always && a.what == b.what;
 }
 
 Verdict verdict_from(double truth) {
@@ -111,36 +130,62 @@ Judgement evaluate(const lang::Condition& condition, int owner, const Facts& fac
   return judgement;
 }
 
-int SharedNames::add(const lang::ExpressionNode& name) {
-  std::size_t i = 0;
-  while (i < names_.size() && !is_same_name(names_[i].node, name)) ++i;
-  if (i == names_.size()) names_.push_back({name, {}, false});
-  return static_cast<int>(i);
-}
-
-void SharedNames::forget() noexcept {
-  for (Name& name : names_) name.is_known = false;
-}
-
-const Fact& SharedNames::look_up(int name, int owner, const Facts& facts) noexcept {
-  Name& n = names_[static_cast<std::size_t>(name)];
-  if (!n.is_known) n.fact = facts.look_up(n.node, owner);
-  n.is_known = true;
-  return n.fact;
-}
-
-Decision::Decision(const lang::Condition& condition, SharedNames& names) {
-  for (const lang::ExpressionNode& node : condition.nodes) {
-    Step& step = steps_.emplace_back(Step{node.op, number(node.number), node.left, node.right});
-    if (is_name(node.op)) step.name = names.add(node);
+int SharedNumbers::add(const lang::Condition& condition, int node) {
+  lang::ExpressionNode own = condition.nodes[static_cast<std::size_t>(node)];
+  if (own.left >= 0) own.left = add(condition, own.left);
+  if (own.right >= 0) own.right = add(condition, own.right);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (is_same_number(numbers_[i].node, own)) return static_cast<int>(i);
   }
-  if (!steps_.empty()) mark(static_cast<int>(steps_.size()) - 1, Verdict::no, Verdict::yes);
+  Number& added = numbers_.emplace_back(Number{own, {}, 0});
+  if (own.op == Op::constant) {
+    added.fact.value = number(own.number);
+    added.known_at = std::numeric_limits<std::uint64_t>::max();
+  }
+  return static_cast<int>(numbers_.size()) - 1;
 }
 
-/// The decision that a value of the node makes. A false operand of an `and` decides as much as a false `and`,
+void SharedNumbers::compute(Number& n, int owner, const Facts& facts) noexcept {
+  n.known_at = tick_;
+  if (is_name(n.node.op)) {
+    n.fact = facts.look_up(n.node, owner);
+    n.fact.value = number(n.fact.value);
+    return;
+  }
+  constexpr Fact none;
+  const Fact& a = n.node.left < 0 ? none : look_up(n.node.left, owner, facts);
+  const Fact& b = n.node.right < 0 ? none : look_up(n.node.right, owner, facts);
+  n.fact = {apply(n.node.op, a.value, b.value), a.stale || b.stale};
+}
+
+Decision::Decision(const lang::Condition& condition, SharedNumbers& numbers) {
+  if (condition.nodes.empty()) return;
+  mark(add(condition, static_cast<int>(condition.nodes.size()) - 1, numbers), Verdict::no, Verdict::yes);
+}
+
+/// Operands stand before what combines them, as in the condition.
+int Decision::add(const lang::Condition& condition, int node, SharedNumbers& numbers) {
+  const lang::ExpressionNode& own = condition.nodes[static_cast<std::size_t>(node)];
+  Step step{.op = own.op};
+  if (is_combination(own.op)) {
+    step.kind = Kind::combination;
+    step.left = add(condition, own.left, numbers);
+    if (own.right >= 0) step.right = add(condition, own.right, numbers);
+  } else if (is_comparison(own.op)) {
+    step.kind = Kind::comparison;
+    step.left = numbers.add(condition, own.left);
+    step.right = numbers.add(condition, own.right);
+  } else {
+    step.left = numbers.add(condition, node);
+  }
+  steps_.push_back(step);
+  return static_cast<int>(steps_.size()) - 1;
+}
+
+/// The decision that a value of the step makes. A false operand of an `and` decides as much as a false `and`,
 /// and a true operand of an `or` as much as a true `or`. Behind a `not` the two change places.
-void Decision::mark(int node, std::optional<Verdict> if_false, std::optional<Verdict> if_true) {
-  Step& step = steps_[static_cast<std::size_t>(node)];
+void Decision::mark(int at, std::optional<Verdict> if_false, std::optional<Verdict> if_true) {
+  Step& step = steps_[static_cast<std::size_t>(at)];
   step.if_false = if_false;
   step.if_true = if_true;
   if (step.op == Op::logical_not) mark(step.left, if_true, if_false);
@@ -150,33 +195,36 @@ void Decision::mark(int node, std::optional<Verdict> if_false, std::optional<Ver
     mark(operand, is_and ? if_false : std::nullopt, is_and ? std::nullopt : if_true);
 }
 
-Judgement Decision::decide(int owner, const Facts& facts, SharedNames& names, std::span<double> values,
-                           std::optional<double> release, bool& is_whole) const noexcept {
+Judgement Decision::decide(int owner, const Facts& facts, SharedNumbers& numbers, std::span<double> values,
+                           std::optional<double> release) const noexcept {
   Judgement judgement;
-  is_whole = true;
   const std::size_t count = steps_.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Step& step = steps_[i];
     double& value = values[i];
-    if (step.name >= 0) {
-      const Fact& fact = names.look_up(step.name, owner, facts);
-      value = number(fact.value);
-      judgement.stale = judgement.stale || fact.stale;
-    } else if (step.op == Op::constant) {
-      value = step.number;
-    } else {
-      const double a = step.left >= 0 ? values[static_cast<std::size_t>(step.left)] : unknown;
-      const double b = step.right >= 0 ? values[static_cast<std::size_t>(step.right)] : unknown;
+    if (step.kind == Kind::comparison) {
+      const Fact& a = numbers.look_up(step.left, owner, facts);
+      const Fact& b = numbers.look_up(step.right, owner, facts);
+      judgement.stale = judgement.stale || a.stale || b.stale;
       const bool is_root = i + 1 == count;
-      value = release && is_root ? not_yet_passed(step.op, a, *release) : apply(step.op, a, b);
+      value = release && is_root ? not_yet_passed(step.op, a.value, *release)
+                                 : compare(step.op, a.value, b.value);
+    } else if (step.kind == Kind::truth) {
+      const Fact& fact = numbers.look_up(step.left, owner, facts);
+      judgement.stale = judgement.stale || fact.stale;
+      value = fact.value;
+    } else {
+      const double b = step.right >= 0 ? values[static_cast<std::size_t>(step.right)] : unknown;
+      value = apply(step.op, values[static_cast<std::size_t>(step.left)], b);
     }
-    const std::optional<Verdict> decided = value == 0.0   ? step.if_false
-                                           : value == 1.0 ? step.if_true
-                                                          : std::nullopt;
-    if (!decided) continue;
-    is_whole = i + 1 == count;
-    judgement.verdict = *decided;
-    return judgement;
+    if (value == 0.0 && step.if_false) {
+      judgement.verdict = *step.if_false;
+      return judgement;
+    }
+    if (value == 1.0 && step.if_true) {
+      judgement.verdict = *step.if_true;
+      return judgement;
+    }
   }
   if (count > 0) judgement.verdict = verdict_from(values[count - 1]);
   return judgement;

@@ -1,6 +1,7 @@
 /// Conditions of the task language, evaluated in three values.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -38,44 +39,53 @@ struct Judgement {
 Judgement evaluate(const lang::Condition& condition, int owner, const Facts& facts, std::span<double> values,
                    std::optional<double> release = std::nullopt) noexcept;
 
-/// The names in the conditions of one task: a name that several conditions have is looked up once a tick.
-class SharedNames {
+/// The numbers in the conditions of one task, each with the nodes below it: `abs(go.x.position)` is computed
+/// once a tick, however many conditions have it.
+class SharedNumbers {
  public:
-  /// The index of the name; one that is new joins them. Allocates.
-  int add(const lang::ExpressionNode& name);
-  /// A new tick: nothing has been looked up yet.
-  void forget() noexcept;
-  const Fact& look_up(int name, int owner, const Facts& facts) noexcept;
+  /// The index of the number; one that is new joins them. Allocates.
+  int add(const lang::Condition& condition, int node);
+  /// A new tick: nothing but the constants is known.
+  void forget() noexcept { ++tick_; }
+  const Fact& look_up(int number, int owner, const Facts& facts) noexcept {
+    Number& n = numbers_[static_cast<std::size_t>(number)];
+    if (n.known_at < tick_) compute(n, owner, facts);
+    return n.fact;
+  }
 
  private:
-  struct Name {
-    lang::ExpressionNode node;
+  struct Number {
+    lang::ExpressionNode node;  ///< its operands are indices of numbers
     Fact fact;
-    bool is_known = false;
+    std::uint64_t known_at = 0;
   };
-  std::vector<Name> names_;
+  void compute(Number& number, int owner, const Facts& facts) noexcept;
+  std::vector<Number> numbers_;
+  std::uint64_t tick_ = 1;
 };
 
-/// A condition as guards evaluate it: node by node, until one of them decides it.
+/// A condition as guards evaluate it: comparison by comparison, until one of them decides it.
 class Decision {
  public:
-  Decision(const lang::Condition& condition, SharedNames& names);
+  Decision(const lang::Condition& condition, SharedNumbers& numbers);
 
-  /// As `evaluate`. Returns early where the rest cannot change the verdict: `is_whole` is false then, and
-  /// `values` holds nothing new of the nodes behind.
-  Judgement decide(int owner, const Facts& facts, SharedNames& names, std::span<double> values,
-                   std::optional<double> release, bool& is_whole) const noexcept;
+  /// The verdict of `evaluate`, without what cannot change it. `values` is at least as long as there are
+  /// nodes, and has no meaning afterwards.
+  Judgement decide(int owner, const Facts& facts, SharedNumbers& numbers, std::span<double> values,
+                   std::optional<double> release) const noexcept;
 
  private:
+  enum class Kind { truth, comparison, combination };
+  /// A truth value.
   struct Step {
+    Kind kind = Kind::truth;
     lang::Op op = lang::Op::constant;
-    double number = 0.0;
-    int left = -1, right = -1;
-    int name = -1;                         ///< of the shared names
-    std::optional<Verdict> if_false = {};  ///< of the condition, once this node is false
+    int left = -1, right = -1;             ///< numbers; of a combination steps
+    std::optional<Verdict> if_false = {};  ///< of the condition, once this one is false
     std::optional<Verdict> if_true = {};
   };
-  void mark(int node, std::optional<Verdict> if_false, std::optional<Verdict> if_true);
+  int add(const lang::Condition& condition, int node, SharedNumbers& numbers);
+  void mark(int step, std::optional<Verdict> if_false, std::optional<Verdict> if_true);
   std::vector<Step> steps_;
 };
 

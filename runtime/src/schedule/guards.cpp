@@ -7,17 +7,16 @@ namespace zwang::runtime {
 
 GuardedExits::GuardedExits(const std::vector<lang::Exit>& given, int owner_task)
     : exits(given), owner(owner_task), compared(comparisons(given)) {
-  for (const lang::Exit& exit : exits) decisions.emplace_back(exit.when, names);
+  for (const lang::Exit& exit : exits) decisions.emplace_back(exit.when, numbers);
+  for (const Compared& one : compared) {
+    const lang::Condition& condition = exits[one.exit].when;
+    sides.push_back({numbers.add(condition, one.left), numbers.add(condition, one.right)});
+  }
 }
 
 Guards::Guards(std::size_t most_exits, std::size_t most_nodes, std::size_t most_compared, double period,
                Unknown unknown)
-    : states_(most_exits),
-      values_(most_exits * most_nodes),
-      course_(most_compared),
-      most_nodes_(most_nodes),
-      period_(period),
-      unknown_(unknown) {}
+    : states_(most_exits), values_(most_nodes), course_(most_compared), period_(period), unknown_(unknown) {}
 
 void Guards::restart() noexcept {
   std::fill(states_.begin(), states_.end(), GuardState{});
@@ -26,15 +25,14 @@ void Guards::restart() noexcept {
 
 void Guards::advance(GuardedExits& guarded, const Facts& facts,
                      const std::vector<double>& parameters) noexcept {
-  guarded.names.forget();
+  guarded.numbers.forget();
   for (std::size_t i = 0; i < guarded.exits.size(); ++i) {
     const lang::Exit& exit = guarded.exits[i];
     GuardState& state = states_[i];
     std::optional<double> release;
     if (state.held && exit.release) release = exit.release->evaluate(parameters);
-    const Judgement now = guarded.decisions[i].decide(
-        guarded.owner, facts, guarded.names, std::span(values_).subspan(i * most_nodes_, most_nodes_),
-        release, state.is_whole);
+    const Judgement now =
+        guarded.decisions[i].decide(guarded.owner, facts, guarded.numbers, values_, release);
     state.at_once = unknown_ == Unknown::fires_when_stale && now.verdict == Verdict::unknown && now.stale;
     const bool holds = now.verdict == Verdict::yes || state.at_once;
     // An unknown condition has not passed the release either.
@@ -46,16 +44,15 @@ void Guards::advance(GuardedExits& guarded, const Facts& facts,
   if (course_.advance()) keep(guarded, facts);
 }
 
-/// What decided a condition early leaves the comparisons behind without a value.
+/// Of all comparisons, those too that are behind what decided a condition.
 void Guards::keep(GuardedExits& guarded, const Facts& facts) noexcept {
-  for (std::size_t i = 0; i < guarded.exits.size(); ++i) {
-    if (states_[i].is_whole) continue;
-    evaluate(guarded.exits[i].when, guarded.owner, facts,
-             std::span(values_).subspan(i * most_nodes_, most_nodes_));
-    states_[i].is_whole = true;
+  const auto value_of = [&](int number) {
+    return guarded.numbers.look_up(number, guarded.owner, facts).value;
+  };
+  for (std::size_t i = 0; i < guarded.compared.size(); ++i) {
+    const auto& [left, right] = guarded.sides[i];
+    course_.keep(i, lack_between(value_of(left), value_of(right), guarded.compared[i].wants_less));
   }
-  for (std::size_t i = 0; i < guarded.compared.size(); ++i)
-    course_.keep(i, lack_of(guarded.compared[i], values(guarded.compared[i].exit)));
 }
 
 bool Guards::is_due(const std::vector<lang::Exit>& exits, std::size_t exit,

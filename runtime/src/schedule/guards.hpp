@@ -1,6 +1,7 @@
 /// The exits of the active task, or those of `always`, and what they remember from tick to tick.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -25,7 +26,8 @@ struct GuardedExits {
   const std::vector<lang::Exit>& exits;
   int owner;  ///< as for Facts
   std::vector<Compared> compared;
-  SharedNames names;
+  std::vector<std::array<int, 2>> sides;  ///< of each comparison its left and right side, among `numbers`
+  SharedNumbers numbers;
   std::vector<Decision> decisions;  ///< of each exit
 };
 
@@ -49,12 +51,6 @@ class Guards {
   /// How often it became true since `restart`.
   int times(std::size_t exit) const noexcept { return states_[exit].times; }
   const WaitCourse& course() const noexcept { return course_; }
-  /// Whether `values` has all nodes of the exit's condition: false where some of them decided it.
-  bool is_whole(std::size_t exit) const noexcept { return states_[exit].is_whole; }
-  /// The values of the nodes of the exit's condition at its last evaluation.
-  std::span<const double> values(std::size_t exit) const noexcept {
-    return std::span(values_).subspan(exit * most_nodes_, most_nodes_);
-  }
 
  private:
   struct GuardState {
@@ -63,14 +59,12 @@ class Guards {
     int times = 0;
     bool held = false;     ///< with `release`: was true, and has not passed it yet
     bool at_once = false;  ///< a stale signal counts as true
-    bool is_whole = true;
   };
   std::vector<GuardState> states_;
   void keep(GuardedExits& guarded, const Facts& facts) noexcept;
 
-  std::vector<double> values_;  ///< by exit, then node
+  std::vector<double> values_;  ///< of one condition's decision
   WaitCourse course_;
-  std::size_t most_nodes_;
   double period_;
   Unknown unknown_;
 };

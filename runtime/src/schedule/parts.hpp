@@ -57,7 +57,12 @@ struct ActiveAxis {
 
 /// The pairs of features of a fence that are in force, by their indices.
 struct InReach {
-  std::array<std::size_t, RegionFence::most_near> pairs{};
+  struct Pair {
+    std::size_t index = 0;
+    double left = 0.0;     ///< before the margin [m]
+    double braking = 0.0;  ///< [m/s^2]
+  };
+  std::array<Pair, RegionFence::most_near> pairs{};
   std::size_t count = 0;
 };
 
@@ -172,7 +177,8 @@ struct Scheduler::Parts final : Facts {
   void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
   void want_standstill(const ActiveAxis& a) noexcept;
   InReach find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept;
-  void keep_in_reach(const ActiveAxis& a, InReach nearest) noexcept;
+  bool keep_in_reach(const ActiveAxis& a, const InReach& nearest) noexcept;
+  void put_in_reach(const ActiveAxis& a, const RegionFence& fence, InReach nearest) noexcept;
   void lead_back() noexcept;
   void find_way_back(ActiveAxis& a) noexcept;
   void lead_back(const ActiveAxis& a, std::size_t index, const WayBack& way) noexcept;

@@ -22,20 +22,9 @@ constexpr double look_ahead = 1.0;  // [m]
 constexpr double facing_cosine = -0.866;  // of 150 deg
 constexpr double turn_step = 0.26;  // [rad] of 15 deg, in which braking on the way of a turn is looked at
 constexpr double quarter_turn = 1.5708;  // [rad]
-constexpr double no_direction = 1e-6;    // [m] between points that are one
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-/// The motion of `f` against `t`, in the axes of `t`: of a point at `arm` from the origin of `f`
-///   v = linear + angular x arm.
-solver::FrameMotion seen_from(const solver::FrameMotion& t, const solver::FrameMotion& f) {
-  const solver::Matrix3 to_axes = t.pose.rotation.transpose();
-  const Vector3 offset = f.pose.position - t.pose.position;
-  return {{to_axes * f.pose.rotation, to_axes * offset},
-          to_axes * (f.angular - t.angular),
-          to_axes * (f.linear - t.linear - t.angular.cross(offset))};
 }
 
 }  // namespace
@@ -59,6 +48,7 @@ RegionFence::RegionFence(const lang::Region& region, std::vector<Vector3> corner
     : region_(region), corners_(std::move(corners)) {
   for (const auto& p : region.polygon) polygon_.emplace_back(p[0], p[1]);
   for (const Vector3& c : corners_) outline_.push_back(flat(c));
+  for (const Point& corner : outline_) reach_ = std::max(reach_, corner.norm());
   edges_ = sides_of(polygon_);
   if (outline_.size() > 2) sides_ = sides_of(outline_);
   const std::size_t n = edges_.size();
@@ -72,10 +62,19 @@ RegionFence::RegionFence(const lang::Region& region, std::vector<Vector3> corner
       last.after = std::min(look_ahead, edge.length);
     }
   }
-  const int corner_count = static_cast<int>(corners_.size());
-  for (int c = 0; c < corner_count; ++c) {
-    if (region.radius > 0.0) pairs_.push_back({PairKind::corner_circle, c, 0});
-    for (int e = 0; e < static_cast<int>(n); ++e) pairs_.push_back({PairKind::corner_edge, c, e});
+  list_pairs();
+  find_meeting();
+  list_stretches();
+  corner_now_.resize(corners_.size());
+  vertex_now_.resize(reflex_.size());
+  approaches_.resize(pairs_.size());
+  facing_.reserve(pairs_.size());
+}
+
+void RegionFence::list_pairs() {
+  for (int c = 0; c < static_cast<int>(corners_.size()); ++c) {
+    if (region_.radius > 0.0) pairs_.push_back({PairKind::corner_circle, c, 0});
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) pairs_.push_back({PairKind::corner_edge, c, e});
     for (int v = 0; v < static_cast<int>(reflex_.size()); ++v) {
       pairs_.push_back({PairKind::corner_vertex, c, v});
     }
@@ -85,23 +84,12 @@ RegionFence::RegionFence(const lang::Region& region, std::vector<Vector3> corner
       pairs_.push_back({PairKind::vertex_side, v, s});
     }
   }
-  find_meeting();
-  corner_now_.resize(corners_.size());
-  vertex_now_.resize(reflex_.size());
-  approaches_.resize(pairs_.size());
-}
-
-/// From the origin of what moves to its farthest corner. [m]
-double RegionFence::reach() const noexcept {
-  double farthest = 0.0;
-  for (const Point& corner : outline_) farthest = std::max(farthest, corner.norm());
-  return farthest;
 }
 
 /// Two edges bind together at a vertex that they share, or where what moves is between them.
 void RegionFence::find_meeting() {
   const std::size_t n = edges_.size();
-  const double near = 2.0 * reach() + look_ahead;
+  const double near = 2.0 * reach_ + look_ahead;
   const auto gap = [&](const Side& side, const Point& p) {
     return (p - side.begin - std::clamp(side.along.dot(p - side.begin), 0.0, side.length) * side.along)
         .norm();
@@ -125,7 +113,7 @@ void RegionFence::find_meeting() {
   }
   // Of a circle: towards its centre, from where a corner is that touches it.
   if (region_.radius > 0.0) {
-    const double sine = std::min(1.0, reach() / region_.radius);
+    const double sine = std::min(1.0, reach_ / region_.radius);
     least_cosine_ = std::sqrt(1.0 - sine * sine);
   }
 }
@@ -193,132 +181,6 @@ double RegionFence::braking(std::size_t index, const solver::Matrix3& to_base, c
     return edge_braking(static_cast<std::size_t>(pair.second), to_base, box, turning);
   if (pair.kind == PairKind::corner_circle && corners_.size() > 1) return weakest_braking(box);
   return braking_alone(flat(to_base * normal(index)), box);
-}
-
-int RegionFence::nearest_side(const std::vector<Side>& sides, const Point& p) noexcept {
-  int nearest = -1;
-  double least = far;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Side& s = sides[i];
-    const double along = std::clamp(s.along.dot(p - s.begin), 0.0, s.length);
-    const double distance = (p - s.begin - along * s.along).norm();
-    if (distance < least) {
-      least = distance;
-      nearest = static_cast<int>(i);
-    }
-  }
-  return nearest;
-}
-
-inline RegionFence::Approach RegionFence::of_edge(const Moving& corner, const Side& edge) const noexcept {
-  return {edge.left.dot(corner.place - edge.begin) - margin_, -edge.left.dot(corner.velocity)};
-}
-
-inline RegionFence::Approach RegionFence::of_vertex(const Moving& corner,
-                                                    const Point& vertex) const noexcept {
-  const Point offset = corner.place - vertex;
-  const double d = offset.norm();
-  if (d > no_direction) return {d - margin_, -(offset.dot(corner.velocity) / d)};
-  return {far, 0.0};
-}
-
-inline RegionFence::Approach RegionFence::of_side(const Moving& vertex, const Side& side) const noexcept {
-  return {-side.left.dot(vertex.place - side.begin) - margin_, side.left.dot(vertex.velocity)};
-}
-
-RegionFence::Approach RegionFence::of_circle(const Moving& corner) const noexcept {
-  const Point offset = corner.place - centre();
-  const double d = offset.norm();
-  if (d > no_direction) return {region_.radius - margin_ - d, offset.dot(corner.velocity) / d};
-  return {far, 0.0};
-}
-
-/// In the order of `pairs_`.
-void RegionFence::look() noexcept {
-  Approach* next = approaches_.data();
-  for (const Moving& corner : corner_now_) {
-    if (region_.radius > 0.0) *next++ = of_circle(corner);
-    for (const Side& edge : edges_) *next++ = of_edge(corner, edge);
-    for (const int vertex : reflex_) *next++ = of_vertex(corner, polygon_[static_cast<std::size_t>(vertex)]);
-  }
-  for (const Moving& vertex : vertex_now_) {
-    for (const Side& side : sides_) *next++ = of_side(vertex, side);
-  }
-  fastest_ = 0.0;
-  for (const Approach& approach : approaches_) fastest_ = std::max(fastest_, approach.speed);
-}
-
-void RegionFence::update(const solver::FrameMotion& move, const solver::FrameMotion& in,
-                         double margin) noexcept {
-  margin_ = margin;
-  to_world_ = in.pose.rotation;
-  move_to_world_ = move.pose.rotation;
-  const solver::FrameMotion move_seen = seen_from(in, move);
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Vector3 arm = move_seen.pose.rotation * corners_[i];
-    const Vector3 place = move_seen.pose.position + arm;
-    corner_now_[i] = {flat(place), place.z(), flat(move_seen.linear + move_seen.angular.cross(arm))};
-  }
-  if (!reflex_.empty()) {
-    const solver::FrameMotion in_seen = seen_from(move, in);
-    for (std::size_t i = 0; i < reflex_.size(); ++i) {
-      const Vector3 arm = in_seen.pose.rotation * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
-      const Vector3 place = in_seen.pose.position + arm;
-      vertex_now_[i] = {flat(place), place.z(), flat(in_seen.linear + in_seen.angular.cross(arm))};
-    }
-  }
-  look();
-}
-
-const RegionFence::Moving& RegionFence::located_corner(std::size_t corner) noexcept {
-  Moving& now = corner_now_[corner];
-  if (now.is_located) return now;
-  now.is_located = true;
-  now.inside = polygon_.empty() || lang::plane::contains(polygon_, now.place);
-  now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
-  return now;
-}
-
-const RegionFence::Moving& RegionFence::located_vertex(std::size_t vertex) noexcept {
-  Moving& now = vertex_now_[vertex];
-  if (now.is_located) return now;
-  now.is_located = true;
-  now.inside = lang::plane::contains(outline_, now.place);
-  now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
-  return now;
-}
-
-bool RegionFence::faces(std::size_t index) noexcept {
-  const Pair& pair = pairs_[index];
-  const auto first = static_cast<std::size_t>(pair.first);
-  const auto second = static_cast<std::size_t>(pair.second);
-  switch (pair.kind) {
-    case PairKind::corner_edge: {
-      const Moving& c = located_corner(first);
-      if (!c.inside) return c.nearest == pair.second;
-      const Side& e = edges_[second];
-      const double along = e.along.dot(c.place - e.begin);
-      return e.left.dot(c.place - e.begin) >= 0.0 && along >= -e.before && along <= e.length + e.after;
-    }
-    case PairKind::corner_vertex: {
-      const Moving& c = located_corner(first);
-      const auto v = static_cast<std::size_t>(reflex_[second]);
-      const Side& after = edges_[v];
-      const Side& before = edges_[(v + edges_.size() - 1) % edges_.size()];
-      const Point offset = c.place - polygon_[v];
-      return c.inside && after.along.dot(offset) < 0.0 && before.along.dot(offset) > 0.0;
-    }
-    case PairKind::vertex_side: {
-      const Moving& v = located_vertex(first);
-      if (v.inside) return v.nearest == pair.second;
-      const Side& s = sides_[second];
-      const double along = s.along.dot(v.place - s.begin);
-      return -s.left.dot(v.place - s.begin) >= 0.0 && along >= 0.0 && along <= s.length;
-    }
-    case PairKind::corner_circle:
-      break;
-  }
-  return true;
 }
 
 Vector3 RegionFence::normal(std::size_t index) const noexcept {

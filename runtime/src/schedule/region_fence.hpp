@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,20 +28,24 @@ class ZWANG_EXPORT RegionFence {
   /// The most pairs that are put in force at once: the nearest.
   static constexpr int most_near = 12;
 
-  /// Looks where everything is. `move` and `in`: of the moved frame and of the region's parent.
+  /// Takes over where both are. `move` and `in`: of the moved frame and of the region's parent.
   void update(const solver::FrameMotion& move, const solver::FrameMotion& in, double margin) noexcept;
 
-  /// The distance that is left before `margin`, and how fast it shrinks; of pairs that do not face each
-  /// other, too.
+  /// The speed of the fastest corner, as the region sees it. No pair that faces each other comes nearer
+  /// faster: across a side, a vertex meets a point between two corners. [m/s]
+  double fastest() const noexcept { return fastest_; }
+  /// Looks for the pairs that face each other and have no more left before `margin` [m] than this, of edges
+  /// and of vertices. Only such pairs have to be kept apart. Costs what the near stretches of the polygon
+  /// have, not the whole polygon.
+  void find_facing(double edge_reach, double vertex_reach) noexcept;
+  /// The pairs that were found, in their order.
+  std::span<const std::size_t> facing() const noexcept { return facing_; }
+  /// The distance that a found pair has left before `margin`, and how fast it shrinks.
   struct Approach {
     double left = 0.0;   ///< [m]
     double speed = 0.0;  ///< [m/s]
   };
   const Approach& approach(std::size_t pair) const noexcept { return approaches_[pair]; }
-  /// The largest speed of them all, 0 when all pairs drift apart. [m/s]
-  double fastest() const noexcept { return fastest_; }
-  /// Only pairs that face each other have to be kept apart.
-  bool faces(std::size_t pair) noexcept;
   /// a_brk before a pair. Edges that can be active together share the braking acceleration. The share is the
   /// smallest one over the headings that the base sweeps before it stops. `to_base`: from the world into the
   /// base's axes. `box`: the accelerations that its ranges leave along x and y [m/s^2]. `turning`: the base's
@@ -79,26 +84,38 @@ class ZWANG_EXPORT RegionFence {
     Point place = Point::Zero();     ///< seen from the other frame
     double height = 0.0;             ///< likewise
     Point velocity = Point::Zero();  ///< of the two against each other, in the other frame's axes
-    bool is_located = false;         ///< the rest is looked up when it is asked for
-    bool inside = true;              ///< of the other polygon
-    int nearest = -1;                ///< side of the other polygon
   };
+  /// Edges or reflex vertices that follow each other, from `begin` to `end`, and a circle around them.
+  struct Stretch {
+    int begin, end;
+    Point centre = Point::Zero();
+    double radius = 0.0;
+    Point axis = Point::UnitX();      ///< along which the edges run, one way or the other
+    double cosine = 0.0, sine = 1.0;  ///< of the largest angle between an edge and the axis
+  };
+  void list_pairs();
+  void list_stretches();
+  void put_axis(Stretch& stretch) const;
   void find_meeting();
-  double reach() const noexcept;
   double edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Point& box,
                       double turning) noexcept;
   double braking_at_any_heading(std::size_t edge, const Point& box) noexcept;
   double least_braking(std::size_t edge, const Eigen::Matrix2d& in_base, double arc,
                        const Point& box) const noexcept;
   static std::vector<Side> sides_of(const std::vector<Point>& polygon);
-  static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
+  static double distance_to(const Side& side, const Point& p) noexcept;
+  static bool points_at(const Stretch& stretch, const Point& offset) noexcept;
   Approach of_edge(const Moving& corner, const Side& edge) const noexcept;
   Approach of_vertex(const Moving& corner, const Point& vertex) const noexcept;
   Approach of_side(const Moving& vertex, const Side& side) const noexcept;
   Approach of_circle(const Moving& corner) const noexcept;
-  void look() noexcept;
-  const Moving& located_corner(std::size_t corner) noexcept;
-  const Moving& located_vertex(std::size_t vertex) noexcept;
+  Moving seen(const solver::FrameMotion& f, const solver::Vector3& point) const noexcept;
+  bool contains(const Point& p) const noexcept;
+  int nearest_edge(const Point& p) const noexcept;
+  void note(std::size_t pair, const Approach& approach, double reach) noexcept;
+  void find_facing_edges(std::size_t first, const Moving& corner, double reach) noexcept;
+  void find_facing_vertices(std::size_t first, const Moving& corner, double reach) noexcept;
+  void find_facing_sides(double reach) noexcept;
   Point centre() const noexcept { return {region_.centre[0], region_.centre[1]}; }
   solver::Pose level_with(std::size_t corner, const Point& p) const noexcept;
 
@@ -112,16 +129,20 @@ class ZWANG_EXPORT RegionFence {
   std::vector<int> reflex_;    ///< vertices of the region
   std::vector<solver::Vector3> corners_;
   std::vector<Point> outline_;  ///< of what moves, in its own frame
+  double reach_ = 0.0;          ///< from its origin to its farthest corner [m]
   std::vector<Side> sides_;     ///< of the footprint
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_;     ///< of each corner those with edges and vertices, then vertices and sides
+  std::vector<Stretch> edge_stretches_, vertex_stretches_;
 
   // As of the last update.
   solver::Matrix3 to_world_ = solver::Matrix3::Identity();  ///< from the region's parent
   solver::Matrix3 move_to_world_ = solver::Matrix3::Identity();
   double margin_ = 0.0;
   std::vector<Moving> corner_now_;  ///< in the region's parent
-  std::vector<Moving> vertex_now_;  ///< reflex vertices in the moved frame
-  std::vector<Approach> approaches_;
+  solver::FrameMotion in_seen_;     ///< the region's parent in the moved frame
+  std::vector<Moving> vertex_now_;  ///< reflex vertices in the moved frame, of those that were near
+  std::vector<std::size_t> facing_;
+  std::vector<Approach> approaches_;  ///< of these pairs
   double fastest_ = 0.0;
 };
 

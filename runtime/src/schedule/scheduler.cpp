@@ -98,7 +98,6 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   for (const lang::Output& output : declared_outputs) outputs.push_back(output.start);
   pushing.resize(tasks.most_nodes);
   list_followers();
-  std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
     if (t.require) follow(*t.require);
     for (const lang::Exit& exit : t.exits) follow(exit.when);
@@ -130,13 +129,13 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       fences.emplace_back(
           given.regions[static_cast<std::size_t>(g.region)],
           g.moves_footprint ? given.robot.footprint : std::vector<solver::Vector3>{solver::Vector3::Zero()});
-      most_pairs += fences.back().pair_count();
     }
   }
   in_reach.resize(fences.size());
   plane_readings.resize(planes.size());
   press_x = press_y = Eigen::VectorXd::Zero(6 + model.joint_count());
-  const std::size_t most_wanted = tasks.most_axes + most_pairs + PlaneNorm::most_sides * planes.size();
+  const std::size_t most_wanted =
+      tasks.most_axes + RegionFence::most_near * fences.size() + PlaneNorm::most_sides * planes.size();
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
   renewed.reserve(2 * most_wanted);

@@ -75,10 +75,10 @@ void Scheduler::Parts::find_way_back(ActiveAxis& a) noexcept {
     const RegionFence& fence = fences[index];
     double inside = solver::infinity;
     for (std::size_t k = 0; k < in_reach[index].count; ++k) {
-      const std::size_t pair = in_reach[index].pairs[k];
+      const std::size_t pair = in_reach[index].pairs[k].index;
       const double margin = fence.approach(pair).left;
       inside = std::min(inside, margin);
-      if (margin < 0.0) lead_back(a, a.wanted + pair, {fence.normal(pair), -fence.approach(pair).speed});
+      if (margin < 0.0) lead_back(a, a.wanted + k, {fence.normal(pair), -fence.approach(pair).speed});
     }
     return note_excursion(a, -inside);
   }

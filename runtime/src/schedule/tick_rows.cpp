@@ -155,13 +155,14 @@ void Scheduler::Parts::want_motion_ranges(const ActiveAxis& a, solver::AxisConst
   c.return_speed = s.return_speed.evaluate(parameters);
 }
 
-/// A place for every pair of features that may come near.
+/// Places for the pairs of features that are in force at once: the k-th of these, by their order, has the
+/// k-th place.
 void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
   const auto fence = static_cast<std::size_t>(a.fence);
-  for (std::size_t i = 0; i < fences[fence].pair_count(); ++i) {
+  const std::size_t most = RegionFence::most_near;
+  for (std::size_t k = 0; k < std::min(most, fences[fence].pair_count()); ++k) {
     Wanted& w = wanted.emplace_back();
     w.origin = a.origin;
-    w.origin.part = static_cast<int>(i);
     w.always = a.origin.task == tasks.always();
     w.fence = true;
     w.lost = a.lost;
@@ -172,11 +173,11 @@ void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
 
 void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
   if (a.lost) {
+    keep_in_reach(a, {.count = 1});
     want_standstill(a);
     renewed.push_back(static_cast<int>(a.wanted));
-    keep_in_reach(a, {.count = 1});
   } else {
-    keep_in_reach(a, find_nearest(a, fence));
+    put_in_reach(a, fence, find_nearest(a, fence));
   }
 }
 
@@ -191,16 +192,12 @@ void Scheduler::Parts::want_standstill(const ActiveAxis& a) noexcept {
   c.level = g.level;
 }
 
-/// The nearest of the pairs of features that what is in force now could not keep apart much faster. Of one
-/// that was near before, mostly nothing but its braking is new: a distance is measured at the corner's
-/// height.
+/// The nearest of the pairs of features that the braking in force now could not keep apart much faster.
 InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept {
   const lang::Group& g = *a.group;
-  const solver::AttachedFrame& move = frames.attached(g.move);
-  const solver::AttachedFrame& in = frames.attached(g.in);
   solver::FrameMotion move_place, in_place;
-  fence.update(frames.motions().of(move, move_place), frames.motions().of(in, in_place),
-               g.margin.evaluate(parameters));
+  fence.update(frames.motions().of(frames.attached(g.move), move_place),
+               frames.motions().of(frames.attached(g.in), in_place), g.margin.evaluate(parameters));
   const auto is_far = [this](const RegionFence::Approach& approach, double a_brk) {
     const double allowed = solver::braking_speed(approach.left, a_brk, horizon);
     return !(allowed < approach.speed + near_speed);
@@ -213,44 +210,60 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
     return solver::braking_distance(fence.fastest() + near_speed, brake, horizon);
   };
   const double edge_brake = fence.weakest_braking(box), vertex_brake = RegionFence::least_alone(box);
-  const double edge_reach = out_of_reach(edge_brake), vertex_reach = out_of_reach(vertex_brake);
+  fence.find_facing(out_of_reach(edge_brake), out_of_reach(vertex_brake));
   InReach nearest;
-  for (std::size_t i = 0; i < fence.pair_count(); ++i) {
+  for (const std::size_t i : fence.facing()) {
     const RegionFence::Approach& approach = fence.approach(i);
-    const bool is_alone = fence.is_braked_for_alone(i);
-    if (approach.left > (is_alone ? vertex_reach : edge_reach)) continue;
-    if (!fence.faces(i) || is_far(approach, is_alone ? vertex_brake : edge_brake)) continue;
+    if (is_far(approach, fence.is_braked_for_alone(i) ? vertex_brake : edge_brake)) continue;
     const double a_brk = std::max(fence.braking(i, to_base, box, turning), least_braking);
     if (is_far(approach, a_brk)) continue;
-    Wanted& w = wanted[a.wanted + i];
-    solver::AxisConstraint& c = w.constraint;
-    const bool is_new =
-        values_are_due || a.hangs_on_signal || w.far || c.measure == solver::Measure::distance;
-    if (is_new) c = fence.constraint(i, move, in);
-    if (is_new) c.return_speed = g.return_speed.evaluate(parameters);
-    if (is_new || c.braking != a_brk) renewed.push_back(static_cast<int>(a.wanted + i));
-    c.level = g.level;
-    c.braking = a_brk;
     // Sorted by what is left; the farthest gives way.
     std::size_t at = nearest.count;
-    while (at > 0 && fence.approach(nearest.pairs[at - 1]).left > approach.left) --at;
+    while (at > 0 && nearest.pairs[at - 1].left > approach.left) --at;
     if (nearest.count < nearest.pairs.size()) ++nearest.count;
     for (std::size_t j = nearest.count; j-- > at + 1;) nearest.pairs[j] = nearest.pairs[j - 1];
-    if (at < nearest.count) nearest.pairs[at] = i;
+    if (at < nearest.count) nearest.pairs[at] = {i, approach.left, a_brk};
   }
   return nearest;
 }
 
-/// These pairs are in force, and no others.
-void Scheduler::Parts::keep_in_reach(const ActiveAxis& a, InReach nearest) noexcept {
-  const auto pairs_of = [](InReach& reach) { return std::span(reach.pairs.data(), reach.count); };
+/// These pairs have the places, in their order, and no others. True where the places had other ones.
+bool Scheduler::Parts::keep_in_reach(const ActiveAxis& a, const InReach& nearest) noexcept {
   InReach& last = in_reach[static_cast<std::size_t>(a.fence)];
-  std::ranges::sort(pairs_of(nearest));
-  if (!std::ranges::equal(pairs_of(last), pairs_of(nearest))) {
-    for (const std::size_t i : pairs_of(last)) wanted[a.wanted + i].far = true;
-    for (const std::size_t i : pairs_of(nearest)) wanted[a.wanted + i].far = false;
-    last = nearest;
-    reach_changed = true;
+  bool is_other = last.count != nearest.count;
+  for (std::size_t k = 0; k < nearest.count && !is_other; ++k)
+    is_other = last.pairs[k].index != nearest.pairs[k].index;
+  last = nearest;
+  if (!is_other) return false;
+  const std::size_t most = RegionFence::most_near;
+  const std::size_t places = std::min(most, fences[static_cast<std::size_t>(a.fence)].pair_count());
+  for (std::size_t k = 0; k < places; ++k) {
+    Wanted& w = wanted[a.wanted + k];
+    w.far = k >= nearest.count;
+    w.origin.part = w.far ? -1 : static_cast<int>(nearest.pairs[k].index);
+  }
+  reach_changed = true;
+  return true;
+}
+
+/// Of a pair that has its place already, mostly nothing but its braking is new: a distance is measured at the
+/// corner's height.
+void Scheduler::Parts::put_in_reach(const ActiveAxis& a, const RegionFence& fence, InReach nearest) noexcept {
+  const lang::Group& g = *a.group;
+  std::ranges::sort(nearest.pairs.begin(), nearest.pairs.begin() + static_cast<std::ptrdiff_t>(nearest.count),
+                    {}, &InReach::Pair::index);
+  const bool is_other = keep_in_reach(a, nearest);
+  for (std::size_t k = 0; k < nearest.count; ++k) {
+    solver::AxisConstraint& c = wanted[a.wanted + k].constraint;
+    const bool is_new =
+        is_other || values_are_due || a.hangs_on_signal || c.measure == solver::Measure::distance;
+    if (is_new) {
+      c = fence.constraint(nearest.pairs[k].index, frames.attached(g.move), frames.attached(g.in));
+      c.return_speed = g.return_speed.evaluate(parameters);
+    }
+    if (is_new || c.braking != nearest.pairs[k].braking) renewed.push_back(static_cast<int>(a.wanted + k));
+    c.level = g.level;
+    c.braking = nearest.pairs[k].braking;
   }
 }
 

@@ -159,11 +159,7 @@ void Scheduler::Parts::remember(TaskSnapshot& snapshot, int of_task) const noexc
   snapshot.course = of.course();
   for (std::size_t i = 0; i < snapshot.exits.size(); ++i) {
     TaskSnapshot::Exit& exit = snapshot.exits[i];
-    if (of.is_whole(i)) {
-      std::ranges::copy(of.values(i), exit.values.begin());
-    } else {
-      evaluate(exits[i].when, of_task, *this, exit.values);
-    }
+    evaluate(exits[i].when, of_task, *this, exit.values);
     exit.true_for = of.dwell(i);
     exit.longest = of.longest(i);
     exit.times = of.times(i);

@@ -22,11 +22,14 @@ struct Compared {
 
 std::vector<Compared> comparisons(const std::vector<lang::Exit>& exits);
 
-/// How far the comparison is from true: positive while it is false. SI; NaN: unknown.
+/// How far a comparison is from true: positive while it is false. SI; NaN: unknown.
+inline double lack_between(double left, double right, bool wants_less) noexcept {
+  return wants_less ? left - right : right - left;
+}
+
 inline double lack_of(const Compared& one, std::span<const double> values) noexcept {
-  const double left = values[static_cast<std::size_t>(one.left)];
-  const double right = values[static_cast<std::size_t>(one.right)];
-  return one.wants_less ? left - right : right - left;
+  return lack_between(values[static_cast<std::size_t>(one.left)], values[static_cast<std::size_t>(one.right)],
+                      one.wants_less);
 }
 
 /// How a lack went on.

@@ -44,15 +44,19 @@ double distance_to_edges(const std::vector<Point>& polygon, const Point& p) {
   return least;
 }
 
+/// Whether a ray from p along x crosses the edge between a and b.
+template <typename Point>
+bool is_crossed(const Point& a, const Point& b, const Point& p) {
+  if ((a[1] > p[1]) == (b[1] > p[1])) return false;
+  return p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1]);
+}
+
 /// Whether p lies inside: a ray from it crosses the edges an odd number of times. Hollows are allowed.
 template <typename Point>
 bool contains(const std::vector<Point>& polygon, const Point& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[j];
-    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-    if (p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1])) inside = !inside;
+    if (is_crossed(polygon[i], polygon[j], p)) inside = !inside;
   }
   return inside;
 }
