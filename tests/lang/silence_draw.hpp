@@ -71,5 +71,7 @@ struct Kind {
 
 /// The kinds of faults that concern regions, places, times and people.
 std::vector<Kind> kinds_of_places();
+/// Those of drivers that something else in the file holds back.
+std::vector<Kind> kinds_of_drivers();
 
 }  // namespace zwang::lang::silence

@@ -257,6 +257,7 @@ const std::vector<Kind>& kinds() {
         {"before_it_is_entered", {"W511"}, before_it_is_entered},
     };
     for (Kind& kind : kinds_of_places()) some.push_back(std::move(kind));
+    for (Kind& kind : kinds_of_drivers()) some.push_back(std::move(kind));
     return some;
   }();
   return all;
@@ -282,7 +283,7 @@ class Silence : public testing::Test {
     return all;
   }
 
-  static int count() { return zwang::test::is_long() ? 200 : 70; }
+  static int count() { return zwang::test::is_long() ? 300 : 75; }
 
   test::Folder folder_;
 };

@@ -313,6 +313,7 @@ void check_statements(CheckContext& context, const std::optional<Scene>& scene, 
   }
   check_named_arguments(context);
   check_flow(context, checked.conditions, checked.always_conditions);
+  check_requirements(context, checked.requirements);
   check_unguarded_sets(context, {checked.conditions, checked.always_conditions, checked.requirements});
   check_feeling(context);
 }

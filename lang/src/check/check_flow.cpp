@@ -4,6 +4,8 @@
 #include "check/context.hpp"
 #include "check/endings.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_never.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -135,7 +137,41 @@ void check_uses(CheckContext& context) {
   }
 }
 
+/// Empty, or what counts from the entry on and would have to be above 0 on entry.
+std::string not_yet_counted(const CheckContext& context, const Case& one) {
+  for (const auto& [key, demanded] : one) {
+    const ExpressionNode& node = *demanded.node;
+    const bool is_of_frame = node.op == Op::of_frame && function_of(node).adds_up;
+    if (!is_of_frame && node.op != Op::elapsed) continue;
+    if (!both(demanded.bounds, Bounds{0.0, 0.0}).is_empty()) continue;
+    if (!is_of_frame) return "elapsed";
+    const FrameSymbol& frame = context.symbols.frames[static_cast<std::size_t>(node.index)];
+    return std::string(function_of(node).name) + "(" + frame.declaration.name + ")";
+  }
+  return "";
+}
+
 }  // namespace
+
+void check_requirements(CheckContext& context, const std::vector<std::optional<Condition>>& requirements) {
+  if (context.diagnostics.has_errors()) return;
+  for (std::size_t i = 0; i < requirements.size(); ++i) {
+    if (!requirements[i] || requirements[i]->nodes.empty()) continue;
+    const TaskText& task = context.file.tasks[i];
+    const auto cases = cases_of(context, *requirements[i], task.groups);
+    if (!cases || is_decided(context, *requirements[i], task.groups)) continue;
+    if (cases->empty()) {
+      context.diagnostics.add(wording::contradicts_itself(task.require->span));
+      continue;
+    }
+    std::string what;
+    const bool is_never = std::all_of(cases->begin(), cases->end(), [&](const Case& one) {
+      what = not_yet_counted(context, one);
+      return !what.empty();
+    });
+    if (is_never) context.diagnostics.add(wording::never_on_entry(task.require->span, what));
+  }
+}
 
 std::vector<std::string> interrupting_tasks(const CheckContext& context) {
   const std::set<std::string> reached = reachable_tasks(context, targets_of_always(context));

@@ -102,6 +102,8 @@ bool check_driver_value(CheckContext& context, const ValueText& value, const Dim
 /// Unreachable tasks, tasks and loops without an end, names without a use.
 void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
                 const std::vector<Condition>& always_conditions);
+/// W511: an `enter.require` that is never true, of each task.
+void check_requirements(CheckContext& context, const std::vector<std::optional<Condition>>& requirements);
 /// Tasks that `always` interrupts to, and those that these lead to: where `back` means something.
 std::vector<std::string> interrupting_tasks(const CheckContext& context);
 

@@ -22,6 +22,10 @@ Diagnostic related_where_known(Diagnostic diagnostic, const Span& span, const st
   return span.exists() ? with_related(std::move(diagnostic), span, text) : diagnostic;
 }
 
+std::string with_article(const std::string& quantity) {
+  return (quantity.starts_with("a") ? "an " : "a ") + quantity;
+}
+
 std::string ticked(const std::string& path) {
   const bool is_name = path.find_first_of(" `") == std::string::npos;
   return is_name ? "`" + path + "`" : path;
@@ -70,11 +74,21 @@ Diagnostic beyond_the_motors(const Span& span, const Bound& range, double most) 
 Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& range, const Span& range_span) {
   return related_where_known(
       warning("W416", span,
-              ticked(asked.path) + " asks for a " + asked.quantity + " of " + figure(asked.low, asked.unit) +
-                  ", " + ticked(range.path) + " keeps it " + within(range.low, range.high, range.unit) +
-                  ": it never gets there",
+              ticked(asked.path) + " asks for " + with_article(asked.quantity) + " of " +
+                  figure(asked.low, asked.unit) + ", " + ticked(range.path) + " keeps it " +
+                  within(range.low, range.high, range.unit) + ": it never gets there",
               "ask for `" + figure(asked.low > range.high ? range.high : range.low, asked.unit) +
                   "`, or widen the range"),
+      range_span, "the range is here");
+}
+
+Diagnostic never_stands(const Span& span, const std::string& asked, const Bound& range,
+                        const Span& range_span) {
+  return related_where_known(
+      warning("W416", span,
+              ticked(asked) + " drives to a place and stays there, " + ticked(range.path) +
+                  " keeps the velocity " + within(range.low, range.high, range.unit) + ": it never stands",
+              "let the range contain 0, or drive a velocity"),
       range_span, "the range is here");
 }
 
@@ -219,6 +233,13 @@ Diagnostic always_true(const Span& span, const Kept& kept) {
 Diagnostic contradicts_itself(const Span& span) {
   return warning("W511", span, "this is never true: its parts exclude each other",
                  "join them with `or`, or look at the direction of the comparisons");
+}
+
+Diagnostic never_on_entry(const Span& span, const std::string& what) {
+  return warning(
+      "W511", span,
+      "this is never true: " + ticked(what) + " is 0 when the task is entered, so the run ends `failed`",
+      "ask for it in an exit, or in the task before: `since(TASK)`, `moved(FRAME)`");
 }
 
 Diagnostic never_in_time(const Span& span, const std::string& by, const Span& end) {
@@ -378,28 +399,6 @@ Diagnostic coasts_on(const Span& span, const Coasting& c, const Span& driven) {
                                   "}`; if it must stay free there, let `" + c.task +
                                   "` end at rest, by a `position` or a `speed(base)` in its exit"),
                       driven, "it is driven here");
-}
-
-Diagnostic circle_beyond_norm(const Span& span, const Circle& c, const Span& norm) {
-  return with_related(warning("W615", span,
-                              figure(c.speed, "m/s") + " at " + figure(c.rate, "rad/s") + " needs " +
-                                  figure(c.speed * c.rate, "m/s^2") + ", `" + c.norm + "` allows " +
-                                  figure(c.most, "m/s^2") + ": the base will be slower",
-                              "turn with `" + figure(c.most / c.speed, "rad/s") + "`, or drive with `" +
-                                  figure(c.most / c.rate, "m/s") + "`"),
-                      norm, "the norm of the acceleration is limited here");
-}
-
-Diagnostic box_for_norm(const Span& span, const Box& b, const Span& other) {
-  const char* unit = b.is_force ? "N" : "m/s^2";
-  const std::string word = b.is_force ? "force" : "acceleration";
-  const std::string most = figure(b.most, unit);
-  return with_related(warning("W641", span,
-                              "`" + b.x + "` and `" + b.y + "` together allow " +
-                                  figure(b.most * 1.41421356237, unit) + " at 45 deg",
-                              "if " + most + " are meant in any direction, write `plane: {" + word + ": [0 " +
-                                  unit + ", " + most + "]}`"),
-                      other, "the other range");
 }
 
 }  // namespace zwang::lang::wording

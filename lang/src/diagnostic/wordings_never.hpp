@@ -24,6 +24,10 @@ Diagnostic beyond_a_norm(const Span& span, const std::string& one, const std::st
                          const Bound& norm, const Span& norm_span);
 Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& range, const Span& range_span);
 
+/// A driver of position, beside a range of velocities that has no 0.
+Diagnostic never_stands(const Span& span, const std::string& asked, const Bound& range,
+                        const Span& range_span);
+
 /// `task` comes first in the text; the names of all that follow each other. Not empty.
 Diagnostic no_way_out(const Span& span, const std::vector<std::string>& tasks);
 Diagnostic to_and_fro(const Span& span, const std::string& from, const std::string& to, const Span& there);
@@ -80,6 +84,8 @@ Diagnostic excluding_regions(const Span& span, const std::string& own, const std
                              const Span& other_span);
 /// A range of accelerations above `most` [m/s^2] or [rad/s^2], what the motors make.
 Diagnostic beyond_the_motors(const Span& span, const Bound& range, double most);
+/// Of `enter.require`: `what` counts from the entry on.
+Diagnostic never_on_entry(const Span& span, const std::string& what);
 Diagnostic never_in_time(const Span& span, const std::string& by, const Span& end);
 
 /// The force of a blocked driver, and its force range. SI.
@@ -123,23 +129,6 @@ Diagnostic cannot_square(const Span& span, const std::string& axis, double floor
                          const Span& exit);
 /// `askew` [rad]: as far as that the outline rests on a wall.
 Diagnostic rests_askew(const Span& span, const std::string& axis, double askew, const Span& exit);
-
-/// A way around a circle that `plane` does not allow.
-struct Circle {
-  double speed = 0.0;  ///< [m/s]
-  double rate = 0.0;   ///< [rad/s]
-  double most = 0.0;   ///< [m/s^2]
-  std::string norm;    ///< "always.calm.plane"
-};
-Diagnostic circle_beyond_norm(const Span& span, const Circle& circle, const Span& norm);
-
-/// Equal ranges of x and y.
-struct Box {
-  std::string x, y;  ///< paths
-  bool is_force = false;
-  double most = 0.0;  ///< [N] or [m/s^2]
-};
-Diagnostic box_for_norm(const Span& span, const Box& box, const Span& other);
 
 /// Of driven wheels that swivel by themselves.
 Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven);

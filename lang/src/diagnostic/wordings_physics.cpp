@@ -131,6 +131,15 @@ Diagnostic redundant_row(const Span& span, const std::string& axis, const std::s
                             : diagnostic;
 }
 
+Diagnostic taken_above(const Span& span, const std::string& axis, const std::string& above, int level,
+                       const Span& above_span) {
+  return with_related(warning("W407", span,
+                              "`" + axis + "` never acts: `" + above + "` drives the same motion at level " +
+                                  std::to_string(level),
+                              "leave one of them out, or write it as a range"),
+                      above_span, "`" + above + "` is driven here");
+}
+
 Diagnostic cannot_feel(const Span& span, const std::string& axis, const std::string& says, double push,
                        const Span& motor) {
   return with_related(

@@ -30,6 +30,9 @@ Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bo
 /// `twin`: the one axis that already says the same; empty when it takes several.
 Diagnostic redundant_row(const Span& span, const std::string& axis, const std::string& twin,
                          const Span& twin_span);
+/// A row of `level` above takes the motion whole.
+Diagnostic taken_above(const Span& span, const std::string& axis, const std::string& above, int level,
+                       const Span& above_span);
 
 /// `axis` is a path; `says` what of it is a force: "presses", "has a force range".
 Diagnostic cannot_feel(const Span& span, const std::string& axis, const std::string& says, double push,

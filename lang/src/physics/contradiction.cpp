@@ -2,6 +2,7 @@
 //
 //   [l1, h1] and [l2, h2] of one quantity along one axis       h1 < l2 or h2 < l1: no value is in both
 //   target t beside [l, h]                                     t < l or t > h: never reached
+//   position beside velocities [l, h]                          l > 0 or h < 0: it never stands there
 //
 // Regions in force leave a range of each position (confined.hpp). Two points of one base are at most as far
 // apart as they are on it, whatever its heading. No acceleration is above what the motors make, F / m.
@@ -96,6 +97,19 @@ void compare_driver(const PlannedAxis& axis, const PlannedAxis& limit, Probe& pr
                                       bound_of(limit, *axis.driver, *range), limit.span(*axis.driver)));
 }
 
+/// Where it arrives it is to stand: velocities without 0 drive it on.
+void compare_rest(const PlannedAxis& axis, const PlannedAxis& limit, Probe& probe, Remarks& remarks) {
+  const auto& range = limit[Quantity::velocity];
+  const bool stays = axis.driver == Quantity::position && !axis.is_spring && axis.text != nullptr;
+  if (!stays || !range || (range->low <= 0.0 && range->high >= 0.0)) return;
+  const std::optional<Range> seen =
+      &axis == &limit ? range : seen_along(axis, limit, Quantity::velocity, probe);
+  if (seen)
+    remarks.add(wording::never_stands(axis.driver_span(), axis.path,
+                                      bound_of(limit, Quantity::velocity, *seen),
+                                      limit.span(Quantity::velocity)));
+}
+
 /// One cause, one message: where many ranges exclude each other, the first pair is told.
 void ask_ranges(const PlannedTask& plan, Quantity quantity, Probe& probe, Remarks& remarks) {
   for (std::size_t i = 0; i < plan.axes.size() && !probe.is_exhausted(); ++i) {
@@ -165,8 +179,14 @@ void compare_points(const PlannedAxis& axis, const PlannedAxis& earlier, Remarks
 void compare_with_region(const PlannedAxis& axis, const Confinement& region, const Robot& robot,
                          Remarks& remarks) {
   const auto& own = axis[Quantity::position];
-  const std::optional<Range> left = own ? left_of_position(region, axis, robot) : std::nullopt;
-  if (!left || (own->low <= left->high && left->low <= own->high)) return;
+  const bool drives = axis.driver == Quantity::position && axis.target && axis.text != nullptr;
+  const std::optional<Range> left =
+      own || drives ? left_of_position(region, axis, robot) : std::optional<Range>();
+  if (left && drives && (*axis.target < left->low || *axis.target > left->high))
+    remarks.add(wording::beyond_a_range(axis.driver_span(),
+                                        bound_of(axis, Quantity::position, {*axis.target, *axis.target}),
+                                        {region.path, "position", "m", left->low, left->high}, region.span));
+  if (!left || !own || (own->low <= left->high && left->low <= own->high)) return;
   remarks.add(wording::excluding_ranges(axis.span(Quantity::position),
                                         bound_of(axis, Quantity::position, *own),
                                         {region.path, "position", "m", left->low, left->high}, region.span));
@@ -221,7 +241,10 @@ void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Pro
   for (const PlannedAxis& axis : plan.axes) compare_with_motors(axis, probe, remarks);
   for (const PlannedAxis& axis : plan.axes) {
     if (probe.is_exhausted()) return;
-    for (const PlannedAxis& limit : plan.axes) compare_driver(axis, limit, probe, remarks);
+    for (const PlannedAxis& limit : plan.axes) {
+      compare_driver(axis, limit, probe, remarks);
+      compare_rest(axis, limit, probe, remarks);
+    }
     for (const PlannedSpeed& speed : plan.speeds) {
       compare_with_norm(axis, speed, remarks);
       for (const PlannedAxis& other : plan.axes) compare_two_with_norm(other, axis, speed, remarks);

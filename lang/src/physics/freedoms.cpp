@@ -8,6 +8,8 @@
 //
 //   n > m  E406          r_k < n  W407          r < r_k = n  E404: the wheels tie them together
 //
+// W407 also tells of a row whose motion a row of a level above takes whole.
+//
 // On a base of two freedoms the last one is asked of x and y of a point first. Three rows there are too many,
 // but fewer of them would not help.
 #include <algorithm>
@@ -95,6 +97,28 @@ void ask_level(int level, const Rows& rows, Probe& probe, Remarks& remarks) {
   if (const PlannedAxis* row = first_dependent(rows, grounded)) say_tied(*row);
 }
 
+/// Strict, without a bound of its own: what it drives, it takes whole.
+bool takes_all(const PlannedAxis& axis) {
+  return axis.drives_motion() && !axis.is_soft && !axis.is_yield && !axis[solver::Quantity::force];
+}
+
+/// A row above drives the very motion that the axis asks for.
+void ask_above(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
+  // A row that only stands still holds what those above leave.
+  if (!axis.drives_motion() || axis.text == nullptr || axis.stands_still() || !axis.target) return;
+  if (remarks.any_at(axis.driver_span())) return;
+  for (const PlannedAxis& above : plan.axes) {
+    if (above.level >= axis.level || !takes_all(above)) continue;
+    const int along = probe.alignment(axis, above);
+    const bool is_alike =
+        above.driver == axis.driver && above.target && *above.target * along == *axis.target;
+    if (along == 0 || is_alike) continue;
+    remarks.add(
+        wording::taken_above(axis.driver_span(), axis.path, above.path, above.level, above.driver_span()));
+    return;
+  }
+}
+
 }  // namespace
 
 void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
@@ -106,6 +130,7 @@ void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (figures != nullptr && figures->is_reachable) levels[axis.level].push_back(&axis);
   }
   for (const auto& [level, rows] : levels) ask_level(level, rows, probe, remarks);
+  for (const PlannedAxis& axis : plan.axes) ask_above(plan, axis, probe, remarks);
 }
 
 }  // namespace zwang::lang

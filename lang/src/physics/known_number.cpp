@@ -3,10 +3,11 @@
 //   measured                    lies within
 //   group.axis.position         the ranges of positions on that axis, and the regions in force; in the
 //                               first task s0 +- v t, too
-//   group.axis.velocity         the ranges of velocities on it
+//   group.axis.velocity         the ranges of velocities on it, and the speed of velocity drivers
 //   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
-//   speed(frame)                what `speed` and the ranges of the base's axes leave
-//   moved(frame)                that speed, or that of velocity drivers, times the time t until the latest
+//   speed(frame)                what `speed` and the ranges of the base's axes leave, and velocity drivers
+//   give moved(frame)                that speed, or that of velocity drivers, times the time t until the
+//   latest
 //                               end of the task; on a straight way no longer than the region in force
 //   turned(frame)               the turning speed times the time
 //   elapsed, since(own task)    that time
@@ -116,18 +117,21 @@ void KnownNumbers::set_time(const Ending& latest, double until) {
 
 /// The tasks from which a way leads to this one. Asked once.
 const std::vector<const PlannedTask*>& KnownNumbers::before() {
-  if (!before_) before_ = tasks_before(context_, plan_, all_.plans);
+  if (!before_)
+    before_ = all_.any ? other_tasks(plan_, all_.plans) : tasks_before(context_, plan_, all_.plans);
   return *before_;
 }
 
 bool KnownNumbers::is_entered_with(const ExpressionNode& node, const Bounds& demanded, const Known& known) {
-  // Each task is compared with all before it: of many nothing is claimed, so that a check ends soon.
-  constexpr std::size_t most_compared = 32;
-  if (plan_.task != nullptr && all_.plans.size() > most_compared) return true;
+  // Each axis is compared with all that is driven: of very many nothing is claimed, so that a check ends
+  // soon.
+  constexpr std::size_t most_motions = 64;
+  if (plan_.task != nullptr && all_.any && all_.any->motions.size() > most_motions) return true;
   const auto meets = [&](const Bounds& left) { return !both(left, demanded).is_empty(); };
   if (node.op == Op::of_frame) {
     const bool turning = calls(node, "turned");
-    const double left = speed_left(before(), turning, probe_);
+    const double left =
+        all_.any ? (turning ? all_.any->turning : all_.any->speed) : speed_left(before(), turning, probe_);
     // A base that is faster at first goes farther, too.
     return calls(node, "speed") ? meets({left, left}) : left > known.speed;
   }
@@ -138,7 +142,9 @@ bool KnownNumbers::is_entered_with(const ExpressionNode& node, const Bounds& dem
   // A run begins at rest.
   if (is_velocity && is_start_ && meets({std::min(0.0, known.bounds.low), std::max(0.0, known.bounds.high)}))
     return true;
-  return meets(is_velocity ? velocities_left(before(), *axis, probe_) : positions_left(before(), *axis));
+  if (!is_velocity) return meets(positions_left(before(), *axis));
+  return meets(all_.any ? velocities_left(*all_.any, *axis, probe_)
+                        : velocities_left(before(), *axis, probe_));
 }
 
 Known KnownNumbers::of(const ExpressionNode& node) {
@@ -166,7 +172,8 @@ Known KnownNumbers::of(const ExpressionNode& node) {
 }
 
 Known KnownNumbers::known_speed(const ExpressionNode& node) {
-  const SpeedLimit limit = limit_of(node);
+  const SpeedLimit most = limit_of(node), driven = driven_limit(node);
+  const SpeedLimit& limit = driven.most < most.most ? driven : most;
   Known known{{0.0, limit.most}, limit.path, limit.span};
   known.speed = limit.most;
   return known;
@@ -251,7 +258,8 @@ Known KnownNumbers::known_coordinate(const ExpressionNode& node) {
 const PlannedAxis* KnownNumbers::feature_axis(const ExpressionNode& node) const {
   const Feature& feature = context_.symbols.features[static_cast<std::size_t>(node.index)].feature;
   const auto at = std::find_if(plan_.axes.begin(), plan_.axes.end(), [&](const PlannedAxis& axis) {
-    return axis.is_feature() && axis.move_name == feature.name && axis[solver::Quantity::position];
+    return axis.is_feature() && axis.move_name == feature.name &&
+           (axis[solver::Quantity::position] || axis.driver == solver::Quantity::position);
   });
   return at != plan_.axes.end() ? &*at : nullptr;
 }
@@ -286,6 +294,7 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
   }
   const bool starts_here = is_start_ && !axis.is_set && (axis.is_feature() || !axis.is_on_path);
   if (!starts_here) return known;
+  const Bounds ranged = known.bounds;
   const double from = probe_.position_at_start(axis);
   // From outside it goes back into the range, through all that lies between.
   if (std::isfinite(known.bounds.low)) known.bounds.low = std::min(known.bounds.low, from);
@@ -293,6 +302,8 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
   const bool is_measured_from_start = is_first_ && axis.in_world && axis.move.body == 0 &&
                                       axis.measure == solver::Measure::axis && !axis.turns() &&
                                       std::isfinite(latest_.time);
+  const bool is_distance = is_first_ && axis.is_open() && axis.move.body == 0;
+  if (is_distance) return towards_target(axis, from, known);
   if (!is_measured_from_start) return known;
   SpeedLimit limit = most_speed(plan_, axis.move, probe_);
   const double own = plan_.speed_limit(axis);
@@ -301,15 +312,26 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
   const Bounds reached = both(known.bounds, {from - way, from + way});
   if (reached.low > known.bounds.low || reached.high < known.bounds.high)
     known = {reached, limit.path, limit.span};
-  return towards_target(axis, from, known);
+  // One end of a range would be named in the place of the other one.
+  const bool has_range = std::isfinite(ranged.low) || std::isfinite(ranged.high);
+  return has_range && axis.driver == solver::Quantity::velocity ? known : towards_target(axis, from, known);
 }
 
-/// A driver of position goes from where it starts to its target; a tenth and 2 cm are left for overshoot.
+/// A driver of position goes from where it starts to its target; a tenth and 2 cm are left for overshoot. A
+/// driver of velocity goes one way; a wall may throw the base back by v T.
 Known KnownNumbers::towards_target(const PlannedAxis& axis, double from, Known known) {
-  if (axis.driver != solver::Quantity::position || !axis.target || axis.is_spring || axis.is_soft)
-    return known;
-  const double beyond = 0.1 * std::abs(*axis.target - from) + 0.02;
-  const Bounds way{std::min(from, *axis.target) - beyond, std::max(from, *axis.target) + beyond};
+  const bool goes = axis.driver == solver::Quantity::position ||
+                    (axis.driver == solver::Quantity::velocity && !axis.stands_still());
+  if (!goes || !axis.target || axis.is_spring || axis.is_soft) return known;
+  constexpr double least = 0.02, part = 0.1;  // [m], of the way
+  Bounds way;
+  if (axis.driver == solver::Quantity::position) {
+    const double beyond = part * std::abs(*axis.target - from) + least;
+    way = {std::min(from, *axis.target) - beyond, std::max(from, *axis.target) + beyond};
+  } else {
+    const double back = (1.0 + part) * std::abs(*axis.target) * axis.time_constant + least;
+    (*axis.target > 0.0 ? way.low : way.high) = from + (*axis.target > 0.0 ? -back : back);
+  }
   const Bounds left = both(known.bounds, way);
   if (left.low > known.bounds.low || left.high < known.bounds.high)
     known = {left, axis.path, axis.driver_span()};
@@ -329,6 +351,13 @@ Known KnownNumbers::known_velocity(const PlannedAxis& axis) {
     known = {left, other.path, other.span(solver::Quantity::velocity)};
     known.parameter = parameter_of(other, solver::Quantity::velocity);
   }
+  // A wall throws a base back no faster than it came.
+  const bool is_planar =
+      !axis.turns() && !axis.is_feature() && (axis.axis == solver::Axis::x || axis.axis == solver::Axis::y);
+  if (!is_planar || axis.move.body != 0) return known;
+  const SpeedLimit driven = speed_of_drivers(plan_, axis.move, probe_);
+  const Bounds left = both(known.bounds, {-driven.most, driven.most});
+  if (left.low > known.bounds.low || left.high < known.bounds.high) known = {left, driven.path, driven.span};
   return known;
 }
 

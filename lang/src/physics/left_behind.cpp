@@ -31,6 +31,36 @@ Bounds velocities_driven(const PlannedTask& plan, const PlannedAxis& driver, Pro
   return {std::min(0.0, asked), std::max(0.0, asked)};
 }
 
+bool is_alike(const PlannedAxis& driver, const PlannedAxis& axis) {
+  return driver.move.body == axis.move.body && driver.turns() == axis.turns();
+}
+
+/// What the driver leaves along the axis.
+void include_motion(Bounds& left, const PlannedAxis& axis, const PlannedAxis& driver, const Bounds& driven,
+                    Probe& probe) {
+  const int sign = probe.alignment(axis, driver);
+  // Two axes of one frame do not share a motion; axes of different frames may, at some heading.
+  const bool is_across =
+      sign == 0 && driver.in_name == axis.in_name && !driver.is_feature() && !axis.is_feature();
+  if (is_across) return;
+  include(left, sign >= 0 ? driven.low : -driven.high);
+  include(left, sign >= 0 ? driven.high : -driven.low);
+  if (sign != 0) return;
+  include(left, -driven.low);
+  include(left, -driven.high);
+}
+
+/// The speed, or of `turning` the rate of turn, to which the task drives the base.
+double speed_driven(const PlannedTask& plan, bool turning, Probe& probe) {
+  double squares = 0.0;
+  for (const PlannedAxis& driver : plan.axes) {
+    if (!driver.driver || driver.move.body != 0 || driver.turns() != turning) continue;
+    const Bounds driven = velocities_driven(plan, driver, probe);
+    squares += std::pow(std::max(-driven.low, driven.high), 2);
+  }
+  return std::sqrt(squares);
+}
+
 }  // namespace
 
 std::vector<const PlannedTask*> tasks_before(const CheckContext& context, const PlannedTask& plan,
@@ -45,40 +75,56 @@ std::vector<const PlannedTask*> tasks_before(const CheckContext& context, const 
   return before;
 }
 
+std::vector<const PlannedTask*> other_tasks(const PlannedTask& plan, const std::vector<PlannedTask>& all) {
+  std::vector<const PlannedTask*> others;
+  for (const PlannedTask& other : all) {
+    if (plan.task != nullptr && other.task != plan.task) others.push_back(&other);
+  }
+  return others;
+}
+
 Bounds velocities_left(const std::vector<const PlannedTask*>& before, const PlannedAxis& axis, Probe& probe) {
   Bounds left = nothing;
   for (const PlannedTask* plan : before) {
     for (const PlannedAxis& driver : plan->axes) {
-      const bool is_alike = driver.move.body == axis.move.body && driver.turns() == axis.turns();
-      if (!driver.driver || !is_alike) continue;
-      const Bounds driven = velocities_driven(*plan, driver, probe);
-      const int sign = probe.alignment(axis, driver);
-      // Two axes of one frame do not share a motion; axes of different frames may, at some heading.
-      const bool is_across =
-          sign == 0 && driver.in_name == axis.in_name && !driver.is_feature() && !axis.is_feature();
-      if (is_across) continue;
-      include(left, sign >= 0 ? driven.low : -driven.high);
-      include(left, sign >= 0 ? driven.high : -driven.low);
-      if (sign != 0) continue;
-      include(left, -driven.low);
-      include(left, -driven.high);
+      if (driver.driver && is_alike(driver, axis))
+        include_motion(left, axis, driver, velocities_driven(*plan, driver, probe), probe);
     }
+  }
+  return left;
+}
+
+Bounds velocities_left(const DrivenByAny& any, const PlannedAxis& axis, Probe& probe) {
+  Bounds left = nothing;
+  for (const auto& [key, driven] : any.motions) {
+    if (is_alike(*driven.axis, axis)) include_motion(left, axis, *driven.axis, driven.velocities, probe);
   }
   return left;
 }
 
 double speed_left(const std::vector<const PlannedTask*>& before, bool turning, Probe& probe) {
   double most = 0.0;
-  for (const PlannedTask* plan : before) {
-    double squares = 0.0;
-    for (const PlannedAxis& driver : plan->axes) {
-      if (!driver.driver || driver.move.body != 0 || driver.turns() != turning) continue;
-      const Bounds driven = velocities_driven(*plan, driver, probe);
-      squares += std::pow(std::max(-driven.low, driven.high), 2);
-    }
-    most = std::max(most, std::sqrt(squares));
-  }
+  for (const PlannedTask* plan : before) most = std::max(most, speed_driven(*plan, turning, probe));
   return most;
+}
+
+DrivenByAny driven_by_any(const std::vector<PlannedTask>& all, Probe& probe) {
+  DrivenByAny any;
+  for (const PlannedTask& plan : all) {
+    any.speed = std::max(any.speed, speed_driven(plan, false, probe));
+    any.turning = std::max(any.turning, speed_driven(plan, true, probe));
+    for (const PlannedAxis& driver : plan.axes) {
+      if (!driver.driver) continue;
+      const std::string key = driver.move_name + " in " + driver.in_name + " " +
+                              std::to_string(static_cast<int>(driver.axis)) + " " +
+                              std::to_string(static_cast<int>(driver.measure));
+      DrivenMotion& motion = any.motions.try_emplace(key, DrivenMotion{&driver, nothing}).first->second;
+      const Bounds driven = velocities_driven(plan, driver, probe);
+      include(motion.velocities, driven.low);
+      include(motion.velocities, driven.high);
+    }
+  }
+  return any;
 }
 
 Bounds positions_left(const std::vector<const PlannedTask*>& before, const PlannedAxis& axis) {

@@ -5,6 +5,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
+#include "physics/left_behind.hpp"
 #include "physics/statics.hpp"
 
 namespace zwang::lang {
@@ -90,7 +91,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_freedoms(plan, probe, remarks);
   ask_askew(plan, probe, remarks);
   ask_free(plan, probe, remarks);
-  ask_still(plan, probe, remarks);
+  ask_still(context, plan, probe, remarks);
   ask_distance(plan, probe, remarks);
   ask_left_over(context, plan, probe, remarks);
   ask_coasting(context, plan, asked.all, asked.conditions.of_tasks[index], probe, remarks);
@@ -125,6 +126,9 @@ void check_physics(CheckContext& context, const std::optional<Scene>& scene, con
     Remarks remarks(context.diagnostics);
     AllTasks all{{}, scene};
     for (const TaskText& task : context.file.tasks) all.plans.push_back(plan_task(context, task));
+    // To ask each pair of tasks whether a way leads from one to the other takes too long in a large file.
+    constexpr std::size_t most_tasks = 32;
+    if (all.plans.size() > most_tasks) all.any = driven_by_any(all.plans, probe);
     const Asked asked{scene, conditions, all, held_steerings(context, context.robot->model),
                       scene.value_or(Scene{}).floor_friction};
     if (!context.diagnostics.has_errors())

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnostic/wordings_never.hpp"
+#include "diagnostic/wordings_norms.hpp"
 #include "physics/questions.hpp"
 
 namespace zwang::lang {

@@ -178,7 +178,7 @@ void plan_speed(const CheckContext& context, const GroupText& group, const AxisT
   if (!move || !velocity || !velocity->is_range) return;
   const std::optional<double> most = known(context, velocity->high, dimension::velocity);
   const int body = place_of(context, *move).frame.body;
-  if (!most || !(*most > 0.0) || body < 0) return;
+  if (!most || *most < 0.0 || body < 0) return;
   speeds.push_back(
       {(in_always ? "always." : "") + group.name.text + "." + text.name.text, body, *most, velocity->span});
 }

@@ -33,10 +33,22 @@ class Remarks {
   std::map<Place, std::set<std::string>> said_;
 };
 
+/// An axis, and the velocities to which tasks drive it.
+struct DrivenMotion {
+  const PlannedAxis* axis = nullptr;
+  Bounds velocities;
+};
+/// What any task of a file drives, each axis once: by frames and axis.
+struct DrivenByAny {
+  std::map<std::string, DrivenMotion> motions;
+  double speed = 0.0, turning = 0.0;  ///< [m/s], [rad/s]
+};
+
 /// The tasks and the scene that an exit depends on beside its own task.
 struct AllTasks {
   std::vector<PlannedTask> plans;  ///< of all tasks, as they are written
   const std::optional<Scene>& scene;
+  std::optional<DrivenByAny> any = {};  ///< of files with many tasks
 };
 
 /// The path that the axis turns with; nullptr without one.
@@ -51,7 +63,7 @@ void ask_askew(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W609: an axis that contact may move, and cannot.
 void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W610: drivers that a range keeps from moving anything. Takes them out of the plan.
-void ask_still(PlannedTask& plan, Probe& probe, Remarks& remarks);
+void ask_still(const CheckContext& context, PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W613: distances that are to vanish.
 void ask_distance(const PlannedTask& plan, const Probe& probe, Remarks& remarks);
 /// W611: speeds that the wheels' motors cannot turn to.

@@ -11,7 +11,8 @@
 //
 // Beside the distance a condition may ask for more, as long as a base on its way meets it. That is a speed
 // above a limit, a time that has passed, a way moved. A distance feature whose other end hangs on a pose
-// signal counts like a signal. It does not if a position is driven: a base arrives where it is driven to.
+// signal counts like a signal, and so does the place of the base's origin along an axis that a pose signal
+// carries. Both do not if a position is driven: a base arrives where it is driven to.
 //
 // If two guards read one signal, the wider one fires first. The task that it leads to gives the base's speed.
 #include <algorithm>
@@ -54,9 +55,10 @@ double speed_for(double way, const Braking& braking, double most) {
 
 /// The distance that the exit compares, and with what.
 struct Guard {
-  int signal = -1;        ///< whose age counts
-  int feature = -1;       ///< -1: the signal itself is the distance
-  double distance = 0.0;  ///< [m]
+  int signal = -1;         ///< whose age counts
+  bool is_signal = false;  ///< the signal itself is the distance; else its pose is measured to
+  std::string name;        ///< of what is compared
+  double distance = 0.0;   ///< [m]
 };
 
 /// True of a base that drives on at `speed`, sooner or later.
@@ -89,7 +91,45 @@ std::optional<Guard> feature_guard(const CheckContext& context, int index) {
   const Place own = place_of(context, is_first_measured ? feature.second : feature.first);
   const bool is_origin = own.frame.body == 0 && own.frame.pose.position.head<2>().norm() < 1e-9;
   if (!is_origin) return std::nullopt;
-  return Guard{is_first_measured ? first : second, index, 0.0};
+  return Guard{is_first_measured ? first : second, false, feature.name, 0.0};
+}
+
+/// Of the base's origin along an axis that a pose signal carries. Its place is a distance on the way to 0.
+std::optional<Guard> axis_guard(const CheckContext& context, const Demanded& demanded,
+                                const std::vector<GroupText>& groups) {
+  const ExpressionNode& node = *demanded.node;
+  const GroupText& group =
+      (node.in_always ? context.file.always_groups : groups)[static_cast<std::size_t>(node.index)];
+  const std::string& axis = group.axes[static_cast<std::size_t>(node.axis)].name.text;
+  const std::optional<int> move = context.symbols.find_frame(group.move.text),
+                           in = context.symbols.find_frame(group.in.text);
+  const bool is_place = node.what == CoordinateQuantity::position && group.kind == GroupKind::axes &&
+                        (axis == "x" || axis == "y");
+  if (!is_place || !move || !in) return std::nullopt;
+  const Place own = place_of(context, *move);
+  const int signal = context.symbols.signal_of(*in);
+  if (signal < 0 || own.frame.body != 0 || !(own.frame.pose.position.head<2>().norm() < 1e-9))
+    return std::nullopt;
+  const double low = demanded.bounds.low, high = demanded.bounds.high;
+  if (!(low < 0.0) || !(high > 0.0)) return std::nullopt;
+  return Guard{signal, false, group.name.text + "." + axis + ".position", std::min(-low, high)};
+}
+
+/// What the part of a condition compares; `distance` where an end of it is one.
+std::optional<Guard> measured_distance(const CheckContext& context, const Demanded& demanded,
+                                       const std::vector<GroupText>& groups) {
+  const ExpressionNode& node = *demanded.node;
+  std::optional<Guard> found;
+  if (node.op == Op::coordinate) return axis_guard(context, demanded, groups);
+  if (node.op == Op::feature) found = feature_guard(context, node.index);
+  if (node.op == Op::signal) {
+    const SignalSymbol& symbol = context.symbols.signals[static_cast<std::size_t>(node.index)];
+    if (symbol.signal.type == SignalType::number && symbol.dimension == dimension::length)
+      found = Guard{node.index, true, symbol.signal.name, 0.0};
+  }
+  if (!found || !std::isfinite(demanded.bounds.high)) return std::nullopt;
+  found->distance = demanded.bounds.high;
+  return found;
 }
 
 /// nullopt: it is no guard of a distance.
@@ -101,17 +141,8 @@ std::optional<Guard> guard_of(const CheckContext& context, const Condition& cond
     std::optional<Guard> guard;
     bool is_met = true;
     for (const auto& [key, demanded] : one) {
-      const ExpressionNode& node = *demanded.node;
-      const SignalSymbol* signal =
-          node.op == Op::signal ? &context.symbols.signals[static_cast<std::size_t>(node.index)] : nullptr;
-      const bool measures = signal != nullptr && signal->signal.type == SignalType::number &&
-                            signal->dimension == dimension::length;
-      std::optional<Guard> found = measures                 ? std::optional<Guard>(Guard{node.index, -1, 0.0})
-                                   : node.op == Op::feature ? feature_guard(context, node.index)
-                                                            : std::nullopt;
-      if (found && std::isfinite(demanded.bounds.high)) {
-        found->distance = demanded.bounds.high;
-        guard = found;
+      if (std::optional<Guard> found = measured_distance(context, demanded, groups)) {
+        guard = std::move(found);
       } else {
         is_met = is_met && holds_on_the_way(demanded, speed);
       }
@@ -134,7 +165,7 @@ class StoppingQuestion {
     const std::vector<Guarded> guards = guards_of(plan, index, limit.most);
     for (const Guarded& one : guards) {
       const bool comes_later = std::any_of(guards.begin(), guards.end(), [&](const Guarded& other) {
-        return other.guard.signal == one.guard.signal && other.guard.feature == one.guard.feature &&
+        return other.guard.signal == one.guard.signal && other.guard.name == one.guard.name &&
                other.guard.distance > one.guard.distance;
       });
       if (!comes_later && one.exit->target.text != plan.task->name.text) compare(one, limit);
@@ -156,7 +187,7 @@ class StoppingQuestion {
                          const std::vector<GroupText>& groups) {
       for (std::size_t i = 0; i < exits.size(); ++i) {
         const auto guard = guard_of(context_, conditions[i], groups, speed);
-        if (guard && (guard->feature < 0 || !arrives)) guards.push_back({&exits[i], *guard});
+        if (guard && (guard->is_signal || !arrives)) guards.push_back({&exits[i], *guard});
       }
     };
     static const std::vector<GroupText> none;
@@ -231,18 +262,14 @@ class StoppingQuestion {
     braking->delay +=
         dwell_of(context_, *one.exit) + (stale_after ? present_value(context_, *stale_after) : 0.0);
     const double outline = reach();
-    const bool is_feature = one.guard.feature >= 0;
-    if (is_feature && one.guard.distance <= outline) return;
+    if (!one.guard.is_signal && one.guard.distance <= outline) return;
     const double reach = one.guard.distance > outline ? outline : 0.0;
     const double way = way_to_stop(limit.most, *braking);
     if (way + reach <= one.guard.distance * (1.0 + 1e-6)) return;
     const double slow_enough = speed_for(one.guard.distance - reach, *braking, limit.most);
-    const std::string& name =
-        is_feature ? context_.symbols.features[static_cast<std::size_t>(one.guard.feature)].feature.name
-                   : context_.symbols.signals[signal].signal.name;
-    remarks_.add(wording::stops_too_late(one.exit->when.span,
-                                         {name, one.guard.distance, limit.most, way, reach, slow_enough},
-                                         limit.path, limit.span));
+    remarks_.add(wording::stops_too_late(
+        one.exit->when.span, {one.guard.name, one.guard.distance, limit.most, way, reach, slow_enough},
+        limit.path, limit.span));
   }
 
   double reach() {
