@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "constants.hpp"
+#include "drive/velocity_drive.hpp"
 #include "plant/velocity_loop.hpp"
 #include "recorded_run.hpp"
 #include "shipped_program.hpp"
@@ -100,6 +101,35 @@ TEST(LimitedDrive, AMotorThatIsBrokenIsStoppedOrStaysInItsBounds) {
 }
 
 /// v^2/2a and what it rolls on until the drive's loop is told and follows: v (delay + 2/rate + T_c).
+/// A wheel that is told 1 rad/s turns the other way, at 0.5 rad/s and faster by `growth` [rad/s^2].
+std::optional<Event> look_at_a_wheel(const lang::Robot& robot, double growth) {
+  VelocityDrive drive(robot, robot.control_period, 1);
+  Command command(robot.model.joint_count());
+  solver::State state(robot.model);
+  const int joint = *robot.model.find_joint("front_left_left_hub");
+  const double cycle = 1.0 / robot.drive.rate;
+  std::optional<Event> found;
+  for (double t = 0.0; t < 2.0 && !found; t += cycle) {
+    state.qd(joint) = -0.5 - growth * t;
+    command.velocity(joint) = 1.0;
+    drive.brake(&state.qd, -1, command);
+    found = drive.look(state, t);
+  }
+  return found;
+}
+
+/// Other motors and a wall turn a wheel that rests on its small torque limit. Told 1 rad/s within the lead of
+/// 70 ms, a sound motor asks for 21 rad/s^2, and a reversed one gives them the other way.
+TEST(LimitedDrive, AWheelThatOthersTurnIsNoFaultOfItsMotor) {
+  const lang::Robot robot = in_scene("wall_align", "limited/kelo_20_hz", "wall_far").robot;
+  EXPECT_FALSE(look_at_a_wheel(robot, 0.0));
+  EXPECT_FALSE(look_at_a_wheel(robot, 1.0));
+  const std::optional<Event> found = look_at_a_wheel(robot, 21.0);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->code, EventCode::not_followed);
+  EXPECT_LE(found->time, VelocityDrive::fast.time + 2.0 / robot.drive.rate);
+}
+
 TEST(LimitedDrive, TheProtectiveStopRampsTheVelocityDown) {
   for (const char* robot : {"limited/mecanum_1_khz", "limited/mecanum_20_hz"}) {
     const lang::Program program = in_scene("obstacle", robot, "obstacle");

@@ -29,6 +29,7 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.push", dimension::force},
                                      {"truth.base.slip", dimension::velocity},
                                      {"truth.base.hand", dimension::force},
+                                     {"truth.base.astray", dimension::length},
                                      {"run.stopped", dimension::time},
                                      {"run.slipped", dimension::time}};
 constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},

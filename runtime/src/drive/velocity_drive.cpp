@@ -85,18 +85,33 @@ bool VelocityDrive::lasts(Lag& lag, double difference, const Allowance& allowanc
   return !yields;
 }
 
+/// The commands asked for a change of rate of  sum (told - rate) dt / lead.
+bool VelocityDrive::is_contrary(Wheel& wheel, double rate, double time) const noexcept {
+  const double lag = difference(wheel, rate, fast);
+  const bool has_lasted = lasts(wheel.beyond, lag, fast, time);
+  const bool begins = wheel.beyond.since == time;
+  wheel.asked = begins ? 0.0 : wheel.asked + (wheel.told - rate) * (time - looked_at_) / set_point_.lead();
+  if (begins) wheel.rate_before = rate;
+  if (!has_lasted) return false;
+  const bool is = (wheel.rate_before - rate) * wheel.asked > contrary * wheel.asked * wheel.asked;
+  if (!is) wheel.beyond = {};
+  return is;
+}
+
 std::optional<Event> VelocityDrive::look(const solver::State& measured, double time) noexcept {
   std::optional<Event> found;
   if (const solver::Vector3* force = felt_force()) bent_by_ = bent_per_force_ * force->head<2>().norm();
   for (Wheel& wheel : wheels_) {
     const double rate = measured.qd(wheel.joint);
-    const bool is_beyond = lasts(wheel.beyond, difference(wheel, rate, fast), fast, time);
+    const bool is_beyond = virtual_ ? lasts(wheel.beyond, difference(wheel, rate, fast), fast, time)
+                                    : is_contrary(wheel, rate, time);
     const double lag = virtual_ ? difference(wheel, rate, slow) : 0.0;
     const bool is_behind = lasts(wheel.behind, lag, slow, time);
     if (!found && (is_beyond || is_behind))
       found =
           Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
   }
+  looked_at_ = time;
   const solver::Vector3& velocity = measured.base_twist.linear;
   const bool is_led_away = lasts(led_away_, virtual_ ? difference(velocity) : 0.0, fast, time);
   if (!found && is_led_away)
@@ -119,7 +134,7 @@ double VelocityDrive::difference(const solver::Vector3& velocity) const noexcept
 void VelocityDrive::remember(const Command& command) noexcept {
   const double fade = period_ / (drive_.time_constant + drive_.delay + 1.0 / drive_.rate + period_);
   for (Wheel& wheel : wheels_) {
-    const double told = command.velocity(wheel.joint);
+    const double told = wheel.told = command.velocity(wheel.joint);
     wheel.most = std::max(told, wheel.most + fade * (told - wheel.most));
     wheel.least = std::min(told, wheel.least + fade * (told - wheel.least));
   }

@@ -44,9 +44,11 @@ class VelocityDrive {
   void put_virtual(double time, bool is_stopped, solver::State& state) noexcept;
   /// None came for too long: by the age of the newest one [s].
   std::optional<Event> look_for_samples(double time) const noexcept;
-  /// With a new sample: whether a wheel turns the way that it was told. A drive with torque limits of its own
-  /// is checked further: whether the wheel is as fast, and whether the base moves with its wheels. At a wall
-  /// the wheels may spin, or the base slides along it. The event has the wheel's rate, or the base's speed.
+  /// With a new sample: whether a wheel turns the way that it was told. A wheel on its torque limit may be
+  /// carried along by other motors and a contact: its own motor is at fault if it gains speed against its
+  /// command. A drive with torque limits of its own is checked further: whether the wheel is as fast, and
+  /// whether the base moves with its wheels. At a wall the wheels may spin, or the base slides along it. The
+  /// event has the wheel's rate, or the base's speed.
   std::optional<Event> look(const solver::State& measured, double time) noexcept;
 
   /// The command while the task runs. `solver` has solved the rows of `scheduler` for `state`, at `time` [s].
@@ -83,6 +85,10 @@ class VelocityDrive {
   /// Beside, of a robot that feels and whose loops have no integral: so much of |w| T_c/m, which a loop that
   /// presses with w stays behind.
   static constexpr double bent = 1.5;
+  /// Of what a command asked for: a motor that gave that much of the contrary does not follow. A reversed
+  /// motor alone on its wheel gives all of it, one of four on a stiff base 2 s - 1 with its share s of the
+  /// wheel's mobility. A wheel that is carried along at an even speed gives none.
+  static constexpr double contrary = 0.1;
   static constexpr double lost_cycles = 3.0;  ///< without a sample, beside
   static constexpr double lost_time = 0.05;   ///< [s]
   static constexpr double full_brake = 0.5;   ///< [rad/s]: below it the brake's torque shrinks with the rate
@@ -102,6 +108,9 @@ class VelocityDrive {
     double most = 0.0, least = 0.0;  ///< [rad/s] of the latest commands
     Lag beyond, behind;              ///< of the fast allowance, and of the slow one
     double rate_then = 0.0;          ///< [rad/s] when all were slowest
+    double told = 0.0;               ///< [rad/s] the latest command
+    double rate_before = 0.0;        ///< [rad/s] when `beyond` began
+    double asked = 0.0;              ///< [rad/s] what the commands asked for since then
     bool is_let_go = false;
   };
   void remember(const Command& command) noexcept;
@@ -111,11 +120,14 @@ class VelocityDrive {
   /// Of a wheel's rate from its command. [rad/s]
   double difference(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept;
   bool lasts(Lag& lag, double difference, const Allowance& allowance, double time) const noexcept;
+  /// Whether a wheel of a drive with torque limits lags because its motor does the contrary of its command.
+  bool is_contrary(Wheel& wheel, double rate, double time) const noexcept;
   void ramp_to_rest(Command& command) const noexcept;
 
   lang::Drive drive_;
   double period_;
-  double deceleration_;  ///< [m/s^2]
+  double deceleration_;     ///< [m/s^2]
+  double looked_at_ = 0.0;  ///< [s] at the last sample
   std::vector<Wheel> wheels_;
   Eigen::VectorXd limit_;  ///< [N m] of each joint
   RowBounds row_bounds_;

@@ -133,6 +133,7 @@ class CellWatch final : public SimulatedRunHost {
   bool goes_on() override { return !is_interrupted(); }
   bool tick(const Sensed& sensed) override {
     tau_ = step(runner_, program_, sensed, plant_.truth().time, facts_);
+    facts_.note_pose(runner_.estimated_state(), plant_.true_state());
     has_ticked_ = true;
     return true;
   }

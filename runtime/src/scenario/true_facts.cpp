@@ -125,6 +125,18 @@ void TrueFacts::note_outputs(std::span<const double> outputs) noexcept {
                                                                          regions_.size() + outputs.size()));
 }
 
+void TrueFacts::note_pose(const solver::State& estimated, const solver::State& state) noexcept {
+  const auto place = [](const solver::Pose& base, const solver::Vector3& point) -> Eigen::Vector2d {
+    return (base.position + base.rotation * point).head<2>();
+  };
+  const auto off = [&](const solver::Vector3& point) {
+    return (place(state.base_pose, point) - place(estimated.base_pose, point)).norm();
+  };
+  double most = off(solver::Vector3::Zero());
+  for (const solver::Vector3& corner : program_.robot.footprint) most = std::max(most, off(corner));
+  values_[lang::truth_astray] = most;
+}
+
 void TrueFacts::note_stop(double time) noexcept {
   values_[lang::run_stopped] = time;
 }

@@ -22,6 +22,8 @@ class TrueFacts {
   /// Of another robot of the scene.
   void update_partner(std::size_t number, const Truth& truth, double torque_share) noexcept;
   void note_partner_stop(std::size_t number, double time) noexcept;
+  /// Where the robot has itself in a tick, and where it is.
+  void note_pose(const solver::State& estimated, const solver::State& state) noexcept;
   /// When the protective stop latched, and when slip was first reported [s].
   void note_stop(double time) noexcept;
   void note_slip(double time) noexcept;

@@ -93,6 +93,7 @@ enum TruthOfBase {
   truth_push,          ///< [N] of the whole robot in the plane, mean of 20 ms without hits
   truth_slip,          ///< [m/s] of the wheel that slides fastest
   truth_hand,          ///< [N] of all hands on the whole robot
+  truth_astray,        ///< [m] of a corner of the footprint from where the robot has it, the largest
   run_stopped,         ///< [s] when the protective stop latched
   run_slipped,         ///< [s] when slip was told first
   truth_base_count
