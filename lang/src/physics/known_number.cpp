@@ -5,9 +5,9 @@
 //                               first task s0 +- v t, too
 //   group.axis.velocity         the ranges of velocities on it, and the speed of velocity drivers
 //   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
-//   speed(frame)                what `speed` and the ranges of the base's axes leave, and velocity drivers
-//   give moved(frame)                that speed, or that of velocity drivers, times the time t until the
-//   latest
+//   speed(frame)                what `speed` and the ranges of the base's axes leave, and what velocity
+//                               drivers give
+//   moved(frame)                that speed, or that of velocity drivers, times the time t until the latest
 //                               end of the task; on a straight way no longer than the region in force
 //   turned(frame)               the turning speed times the time
 //   elapsed, since(own task)    that time
