@@ -24,7 +24,8 @@ fs::path program_for(const std::string& name) {
 }
 
 std::vector<std::string> words_of(const ConnectArguments& a) {
-  std::vector<std::string> words{file_or_shipped(a.file), "--over", file_or_shipped(a.connection, "connections")};
+  std::vector<std::string> words{file_or_shipped(a.file), "--over",
+                                 file_or_shipped(a.connection, "connections")};
   const auto add = [&words](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };
