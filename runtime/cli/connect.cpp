@@ -24,7 +24,8 @@ fs::path program_for(const std::string& name) {
 }
 
 std::vector<std::string> words_of(const ConnectArguments& a) {
-  std::vector<std::string> words{file_or_shipped(a.file), "--over", file_or_shipped(a.connection)};
+  std::vector<std::string> words{file_or_shipped(a.file), "--over",
+                                 file_or_shipped(a.connection, "connections")};
   const auto add = [&words](const char* option, const std::string& value) {
     words.insert(words.end(), {option, value});
   };
@@ -44,7 +45,7 @@ std::vector<std::string> words_of(const ConnectArguments& a) {
 }  // namespace
 
 int connect(const std::string& verb, const ConnectArguments& arguments) {
-  require_file(file_or_shipped(arguments.connection));
+  require_file(file_or_shipped(arguments.connection, "connections"));
   const std::string program = program_for("zwang-" + verb).string();
   std::vector<std::string> words = words_of(arguments);
   words.insert(words.begin(), program);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
@@ -79,11 +80,24 @@ ordered_json as_json(const std::string& file, const runtime::LogContents& log,
           {"events", told}};
 }
 
+constexpr double longest_run = 1e8;  // [s] three years: a clock beyond counts from 1970
+
+/// `from 0 s to 11.05 s`. A robot's clock counts from 1970: its times are told as a date, and since the
+/// begin.
+std::string span_of(const runtime::LogContents& log) {
+  if (log.begin < longest_run) return "from " + with_unit(log.begin, "s") + " to " + with_unit(log.end, "s");
+  const auto seconds = static_cast<std::time_t>(log.begin);
+  char date[40];
+  std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S UTC", std::gmtime(&seconds));
+  return "over " + with_unit(log.end - log.begin, "s") + " from " + date + "; times since then";
+}
+
 std::string as_text(const std::string& file, const runtime::LogContents& log,
                     const std::vector<TaskBegin>& tasks, const std::vector<runtime::LoggedEvent>& events) {
   std::ostringstream out;
+  const double zero = log.begin < longest_run ? 0.0 : log.begin;
   out << file << ": " << (log.closed && log.damage.empty() ? "whole" : "damaged") << ", " << log.records
-      << " records from " << with_unit(log.begin, "s") << " to " << with_unit(log.end, "s") << "\n";
+      << " records " << span_of(log) << "\n";
   for (const std::string& what : log.damage) out << "  " << what << "\n";
   std::size_t width = narrowest;
   for (const auto& [name, value] : log.context.facts) width = std::max(width, name.size() + 2);
@@ -103,10 +117,10 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
     }
   }
   for (const TaskBegin& t : tasks) {
-    line("from " + with_unit(t.time, "s")) << "task `" << t.task << "`\n";
+    line("from " + with_unit(t.time - zero, "s")) << "task `" << t.task << "`\n";
   }
   for (const runtime::LoggedEvent& e : events) {
-    line("at " + with_unit(e.time, "s", 6))
+    line("at " + with_unit(e.time - zero, "s", 6))
         << "event " << e.code << (e.signal.empty() ? "" : ", " + e.signal) << "\n";
   }
   return out.str();

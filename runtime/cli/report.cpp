@@ -56,16 +56,28 @@ int index_of(const runtime::LogContext& context, const std::string& file) {
   return -1;
 }
 
-/// The diagnostics of `zwang run` about these files before the run. They are read in the order of the log.
-ordered_json warnings_of(const lang::Diagnostics& diagnostics) {
+/// Of a file that was read from a copy, in a folder that holds it under the log's name. -1: it is none of
+/// them.
+int index_of_copy(const runtime::LogContext& context, const std::string& path) {
+  for (std::size_t i = 0; i < context.sources.size(); ++i) {
+    const std::string& name = context.sources[i].path;
+    if (path == name || path.ends_with("/" + name)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// The diagnostics of `zwang run` about these files before the run. `zwang drive` logs its connection, too,
+/// which is not read here.
+ordered_json warnings_of(const runtime::LogContext& context, const lang::Diagnostics& diagnostics) {
   ordered_json warnings = ordered_json::array();
   for (const lang::Diagnostic& d : diagnostics.sorted()) {
     if (d.severity == lang::Severity::note) continue;
-    warnings.push_back({{"code", d.code},
-                        {"message", d.message},
-                        {"help", d.help},
-                        {"file", d.span.source},
-                        {"line", d.span.begin.line}});
+    warnings.push_back(
+        {{"code", d.code},
+         {"message", d.message},
+         {"help", d.help},
+         {"file", d.span.exists() ? index_of_copy(context, diagnostics.source(d.span.source).path) : -1},
+         {"line", d.span.begin.line}});
   }
   return warnings;
 }
@@ -121,6 +133,12 @@ ordered_json samples_of(const Series& series) {
           {"values", packed_text(values)}};
 }
 
+/// At the end of the log; empty: nothing.
+std::string said_of(const runtime::LogContents& log, const std::string& what) {
+  const auto said = log.conclusion.find(what);
+  return said == log.conclusion.end() ? "" : said->second;
+}
+
 Series series_of(const fs::path& log, std::size_t points) {
   Series series = runtime::read_series(log, points);
   if (series.log.records == 0) throw Impossible(log.string() + ": holds no record");
@@ -155,15 +173,21 @@ ordered_json page_data(const fs::path& log, const Series& series) {
                        {"curves", curves_of(series)},
                        {"samples", samples_of(series)},
                        {"world", nullptr}};
-  if (report != series.log.conclusion.end())
+  if (report != series.log.conclusion.end()) {
     data["report"] = ordered_json::parse(report->second, nullptr, false);
+  } else if (const std::string outcome = said_of(series.log, "outcome"); !outcome.empty()) {
+    // A scene's other robots have no verdict of their own.
+    const std::string verdict = said_of(series.log, "verdict"), why = said_of(series.log, "why");
+    data["report"] = {{"outcome", outcome},
+                      {"verdict", verdict.empty() ? outcome + (why.empty() ? "" : ": " + why) : verdict}};
+  }
   lang::Diagnostics diagnostics;
   if (const auto program = runtime::logged_program(series.log.context, diagnostics)) {
     data["world"] = world_of(*program);
     data["graph"] = graph_json(*program);
     data["bounds"] = bounds_of(*program);
   }
-  data["warnings"] = warnings_of(diagnostics);
+  data["warnings"] = warnings_of(series.log.context, diagnostics);
   return data;
 }
 

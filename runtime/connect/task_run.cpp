@@ -23,10 +23,16 @@ std::string reason_of(const runtime::Runner& runner) {
   return because.empty() || runner.guard().stopped() ? why->sentence : why->sentence + "; " + because;
 }
 
-void print_report(const runtime::Runner& runner, const DriveReport& report, const Inbox& inbox) {
+/// `done after 2.59 s`, and why it is not done.
+std::string verdict_of(const runtime::Runner& runner, const DriveReport& report) {
   const std::string reason = reason_of(runner);
-  std::printf("%s after %.2f s%s%s\n", runtime::to_string(runner.state()), report.elapsed,
-              reason.empty() ? "" : ": ", reason.c_str());
+  char text[48];
+  std::snprintf(text, sizeof text, "%s after %.2f s", runtime::to_string(runner.state()), report.elapsed);
+  return text + (reason.empty() ? "" : ": " + reason);
+}
+
+void print_report(const runtime::Runner& runner, const DriveReport& report, const Inbox& inbox) {
+  std::printf("%s\n", verdict_of(runner, report).c_str());
   const auto since_start = [&](double time) {
     return time > 0.5 * report.first_sample ? time - report.first_sample : time;
   };
@@ -134,7 +140,11 @@ RunTaskResult run_task(const Robot& robot, const lang::Program& program, const l
   std::fflush(stdout);
   DriveReport report;
   drive(robot.connection, program, robot.inbox, robot.outbox, robot.control, runner, report);
-  if (recorder) recorder->close();
+  if (recorder) {
+    recorder->conclude(
+        {{"outcome", runtime::to_string(runner.state())}, {"verdict", verdict_of(runner, report)}});
+    recorder->close();
+  }
   RunTaskResult result{outcome_of(runner, robot.control), reason_of(runner)};
   if (result.outcome == GoalOutcome::canceled) result.reason = "cancelled by its client; the base has braked";
   robot.control.end(runtime::to_string(runner.state()), result.reason);

@@ -51,6 +51,22 @@ std::vector<lang::KnownFile> files_to_name(const Asked& asked) {
   return files;
 }
 
+/// Of the robot that the text names: for a task file that was never whole.
+std::vector<std::string> frames_of_named_robot(const Asked& asked) {
+  constexpr std::string_view key = "\nrobot: ";
+  const std::string text = "\n" + asked.document.text;
+  const std::size_t found = text.find(key);
+  if (found == std::string::npos) return {};
+  const std::size_t begin = found + key.size();
+  lang::Diagnostics unheard;
+  const auto robot = lang::load_robot(
+      asked.file.parent_path() / text.substr(begin, text.find_first_of(" #\r\n", begin) - begin), unheard);
+  if (!robot) return {};
+  std::vector<std::string> frames{"world"};
+  for (const solver::Frame& frame : robot->model.frames()) frames.push_back(frame.name);
+  return frames;
+}
+
 /// By the last text that could be read. Scenarios and scenes know the names of the tasks that they name.
 lang::KnownNames known_to(const Asked& asked) {
   lang::KnownNames known;
@@ -60,7 +76,10 @@ lang::KnownNames known_to(const Asked& asked) {
   if (asked.kind != lang::FileKind::task) {
     for (const lang::NamePlace& name : names_of_tasks_in(asked.file)) known.given.push_back(name);
   }
-  if (judgement == nullptr || !judgement->last) return known;
+  if (judgement == nullptr || !judgement->last) {
+    known.frames = frames_of_named_robot(asked);
+    return known;
+  }
   for (const lang::FrameDeclaration& frame : judgement->last->program.frames)
     known.frames.push_back(frame.name);
   return known;

@@ -85,7 +85,7 @@ class Pair:
     clients = pathlib.Path()  # the folder of the programs that call services
 
     def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more="", base="",
-                 simulated=(), motors_apart=0, stale_after="100 ms"):
+                 simulated=(), driven=(), motors_apart=0, stale_after="100 ms"):
         self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
         self.motors_apart = motors_apart
         self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
@@ -101,7 +101,7 @@ class Pair:
             with open(self.files[side], "w", encoding="utf-8") as out:
                 # `--stuck-odometry` is for tests: the program behind `zwang simulate` takes it, `zwang` does not.
                 first = [program, side] if side == "drive" else [program + "-simulate"]
-                words = arguments + (list(simulated) if side == "simulate" else [])
+                words = arguments + list(simulated if side == "simulate" else driven)
                 setattr(self, side, start(first + words, stdout=out, stderr=out))
 
     def end(self, within=40):

@@ -91,6 +91,20 @@ def a_twist_drives_as_far(program, root, _folder):
     expect(abs(number(r"base at (-?[0-9.]+) m", simulate) - 0.72) < 0.04, "another way", simulate)
 
 
+def a_log_tells_how_it_ended(program, root, folder):
+    """By the clock of this computer, which counts from 1970."""
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    log = folder / "log.mcap"
+    code, drive, simulate = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 31,
+                                 driven=["--log", log]).end()
+    expect(code == 0, "not done", drive, simulate)
+    told = json.loads(subprocess.run([program, "info", log, "--format", "json"], capture_output=True, text=True, check=False).stdout)
+    expect(told["outcome"] == "done" and told["verdict"].startswith("done after"), "no outcome", str(told))
+    said = subprocess.run([program, "info", log], capture_output=True, text=True, check=False).stdout
+    # At 0.5 m/s^2 to 0.4 m/s, for 2 s in all.
+    expect(1.9 < number(r"from ([0-9.]+) s *task `done`", said) < 2.2, "times are not those of the run", said)
+
+
 def this_machine_alone_is_enough(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 7, ros2="reach: machine")
@@ -114,7 +128,7 @@ def main(program, root, clients, *chosen):
                 return False
 
     # Mostly they wait: two at a time take a tenth of a processor.
-    cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, this_machine_alone_is_enough,
+    cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, a_log_tells_how_it_ended, this_machine_alone_is_enough,
              *stop_cases.CASES, *call_cases.CASES, *cyclone_cases.CASES,
              *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
              *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))

@@ -117,6 +117,30 @@ TEST_F(Features, CompletionKnowsKeysNamesAndUnits) {
   EXPECT_TRUE(proposed(task, "rz: {velocity: 0 rad/s", "rz: {velocity: 0 r").contains("deg/s"));
 }
 
+TEST_F(Features, CompletionInAConditionKnowsWhatIsCompared) {
+  const fs::path task = open("wall_align.yaml");
+  const std::set<std::string> speeds{"m/s", "cm/s", "mm/s"}, lengths{"m", "cm", "mm", "um", "km"};
+  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: elapsed > 2 "),
+            (std::set<std::string>{"s", "ms", "us", "min", "h"}));
+  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: elapsed > 2 s and moved(base) > 2 "), lengths);
+  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: contact.x.velocity >= -2 "), speeds);
+  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: abs(contact.x.velocity) < 2 "), speeds);
+  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: abs(estimated.force.rz) < 2 "),
+            (std::set<std::string>{"N m"}));
+}
+
+TEST_F(Features, CompletionKnowsTheRobotOfATaskThatWasNeverWhole) {
+  const fs::path path = fs::canonical(folder_.path() / "specs") / "new.yaml";
+  const std::string text =
+      "zwang: 2\nrobot: robots/mecanum_base.yaml  # mine\ntasks:\n  go:\n    constraints:\n"
+      "      a: {move: ";
+  editor_.open(path, text);
+  const auto frames =
+      labels(editor_.ask("textDocument/completion", {{"textDocument", {{"uri", uri_of(path)}}},
+                                                     {"position", Editor::position(text, text.size())}}));
+  for (const char* frame : {"base_link", "world", "footprint"}) EXPECT_TRUE(frames.contains(frame)) << frame;
+}
+
 TEST_F(Features, CompletionKnowsFilesTypesAndWhatIsSet) {
   const fs::path task = open("wall_align.yaml");
   const auto robots = proposed(task, "robot: robots/mecanum_base.yaml", "robot: robots/mec");

@@ -31,6 +31,12 @@ int line_of(const std::string& text) {
   return static_cast<int>(std::count(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
 }
 
+TEST_F(Cli, AShippedConnectionIsFoundByItsName) {
+  const Result misspelt = zwang({"drive", "wall_align", "--over", "mecanum_efort"});
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_NE(misspelt.err.find("did you mean `mecanum_effort`"), std::string::npos) << misspelt.err;
+}
+
 // An arm that starts inside of a block: only the plant knows where its tip is. A scene that `validate`
 // accepts starts. A scene that `run` refuses is refused by `validate` in the same words.
 TEST_F(Cli, ValidateRefusesWhatThePlantRefuses) {

@@ -39,7 +39,8 @@ class Proposer {
       return std::move(all_);
     }
     if (is_behind_number()) {
-      for (const std::string& unit : units_that_fit(place_.keys)) add(unit, ProposalKind::unit, "");
+      const auto units = is_condition() ? units_in_condition(before()) : units_that_fit(place_.keys);
+      for (const std::string& unit : units) add(unit, ProposalKind::unit, "");
       return std::move(all_);
     }
     if (is_behind_dollar()) {

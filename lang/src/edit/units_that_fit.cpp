@@ -10,6 +10,7 @@
 #include "spec/task_file.hpp"
 #include "words/units.hpp"
 #include "zwang/lang/completion.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -78,10 +79,51 @@ constexpr std::array usual_products{"m/s",   "cm/s",    "mm/s",    "m/s^2",   "r
                                     "deg/s", "rad/s^2", "deg/s^2", "N m",     "kg m^2",
                                     "N/m",   "kN/m",    "N s/m",   "N m/rad", "N m s/rad"};
 
-}  // namespace
+/// Without the blanks and one of these letters at its end, as often as they stand there.
+std::string_view without_end(std::string_view text, std::string_view letters) {
+  const auto trimmed = [](std::string_view of, std::string_view which) {
+    const std::size_t last = of.find_last_not_of(which);
+    return of.substr(0, last == std::string_view::npos ? 0 : last + 1);
+  };
+  return trimmed(trimmed(trimmed(text, " "), letters), " ");
+}
 
-std::vector<std::string> units_that_fit(const std::vector<std::string>& keys) {
-  const std::optional<Dimension> wanted = dimension_below(keys);
+/// Of `contact.x.velocity`, `estimated.force.x` and `elapsed`.
+std::optional<Dimension> dimension_of_path(std::string_view path) {
+  if (path == "elapsed") return dimension::time;
+  const std::size_t point = path.rfind('.');
+  if (point == std::string_view::npos) return std::nullopt;
+  const std::string last(path.substr(point + 1));
+  if (path.starts_with("estimated.")) {
+    const auto axis = axis_named(last);
+    return axis ? std::optional(dimension_of(*axis, solver::Quantity::force)) : std::nullopt;
+  }
+  const std::size_t before = path.rfind('.', point - 1);
+  if (before == std::string_view::npos) return std::nullopt;
+  const auto axis = axis_named(std::string(path.substr(before + 1, point - before - 1)));
+  const auto quantity = quantity_named(last);
+  return axis && quantity ? std::optional(dimension_of(*axis, *quantity)) : std::nullopt;
+}
+
+/// Of the left side of the last comparison; nullopt: not known. `abs(contact.x.velocity) < 5 `
+std::optional<Dimension> dimension_compared(std::string_view condition) {
+  const std::string_view compared = without_end(without_end(condition, "0123456789.-"), "<>=");
+  constexpr std::string_view of_path = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.";
+  const auto path_at_end = [&](std::string_view text) {
+    const std::size_t before = text.find_last_not_of(of_path);
+    return text.substr(before == std::string_view::npos ? 0 : before + 1);
+  };
+  if (!compared.ends_with(')')) return dimension_of_path(path_at_end(compared));
+  const std::size_t open = compared.rfind('(');
+  if (open == std::string_view::npos) return std::nullopt;
+  const ConditionFunction* function = find_function(path_at_end(compared.substr(0, open)));
+  if (function == nullptr || function->is_truth) return std::nullopt;
+  if (function->argument == FunctionArgument::number)
+    return dimension_of_path(path_at_end(compared.substr(open + 1, compared.size() - open - 2)));
+  return Dimension{function->powers[0], function->powers[1], function->powers[2], function->powers[3]};
+}
+
+std::vector<std::string> units_of(const std::optional<Dimension>& wanted) {
   std::vector<std::string> units = unit_names();
   units.insert(units.end(), usual_products.begin(), usual_products.end());
   if (!wanted) return units;
@@ -91,6 +133,16 @@ std::vector<std::string> units_that_fit(const std::vector<std::string>& keys) {
     return !parsed || parsed->dimension != *wanted;
   });
   return units;
+}
+
+}  // namespace
+
+std::vector<std::string> units_that_fit(const std::vector<std::string>& keys) {
+  return units_of(dimension_below(keys));
+}
+
+std::vector<std::string> units_in_condition(std::string_view condition) {
+  return units_of(dimension_compared(condition));
 }
 
 std::string in_si(std::string_view text) {
