@@ -65,7 +65,7 @@ bool holds_its_heading(const PlannedTask& plan) {
 
 constexpr double far = 1e3;  // [m] of a task without an end
 
-/// 0 times an endless time is nobody's guess. [m]
+/// An endless time makes an endless way, at a speed of 0, too: nobody knows better. [m]
 double way_in(double speed, double time) {
   const double way = speed * time;
   return std::isnan(way) ? solver::infinity : way;
