@@ -65,6 +65,12 @@ bool holds_its_heading(const PlannedTask& plan) {
 
 constexpr double far = 1e3;  // [m] of a task without an end
 
+/// An endless time makes an endless way, at a speed of 0, too: nobody knows better. [m]
+double way_in(double speed, double time) {
+  const double way = speed * time;
+  return std::isnan(way) ? solver::infinity : way;
+}
+
 /// Where a run may bring the base and the robots beside it. Infinite: nobody knows.
 struct Reach {
   double way = 0.0;   ///< [m] from the start
@@ -80,7 +86,7 @@ Reach reach_of_run(const CheckContext& context, const ExitConditions& conditions
       return {solver::infinity, solver::infinity};
     const double time = latest_end(context, plan, conditions.of_tasks[i]);
     reach.time += time;
-    reach.way += time * speed_of_base(plan, probe);
+    reach.way += way_in(speed_of_base(plan, probe), time);
   }
   return reach;
 }
@@ -202,7 +208,7 @@ class Beside {
 
   double way_of(const Program& program) const {
     const double speed = driven_speed(program);
-    return speed > 0.0 ? speed * reach_.time : 0.0;
+    return speed > 0.0 ? way_in(speed, reach_.time) : 0.0;
   }
 
   const Scene& scene_;
@@ -239,7 +245,7 @@ std::optional<Strip> strip_of(const PlannedTask& plan, const Hop& hop, bool is_f
   const solver::Vector3 way = along * own_direction(*hop.way, sign(*hop.way->target), robot, scene);
   return Strip{swept_along(outline_at_start(robot, scene), way),
                own_direction(*hop.push, sign(*hop.push->target), robot, scene),
-               plan.speed_limit(*hop.push) * time};
+               way_in(plan.speed_limit(*hop.push), time)};
 }
 
 }  // namespace

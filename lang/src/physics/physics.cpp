@@ -94,7 +94,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_still(context, plan, probe, remarks);
   ask_distance(plan, probe, remarks);
   ask_left_over(context, plan, probe, remarks);
-  ask_coasting(context, plan, asked.all, asked.conditions.of_tasks[index], probe, remarks);
+  ask_coasting(context, plan, asked.all, asked.conditions.of_tasks[index], remarks);
   ask_top_speed(plan, *context.robot, remarks);
   ask_plane(plan, probe, remarks);
   ask_path(context, plan, probe, remarks);

@@ -94,7 +94,7 @@ void ask_yield_axes(const CheckContext& context, const PlannedTask& plan, const 
 void ask_left_over(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W646: what the task drives, and a task that it leads to leaves to nothing. `conditions`: of its exits.
 void ask_coasting(const CheckContext& context, const PlannedTask& plan, const AllTasks& all,
-                  const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
+                  const std::vector<Condition>& conditions, Remarks& remarks);
 /// N616: targets on a pose signal that are trailed.
 void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
