@@ -82,6 +82,22 @@ TEST(Halton, FillsTheUnitIntervalEvenly) {
   }
 }
 
+/// Of fewer than b^k points each has a digit among the first k that is not the zero's: from both ends it is
+/// b^-k / (b - 1) away at least. A cell at an end would draw what no robot is.
+TEST(Halton, HasNoCellAtAnEnd) {
+  const std::size_t bases[] = {2, 3, 5};
+  const double powers[] = {128.0, 243.0, 125.0};
+  for (std::size_t draw = 0; draw < 3; ++draw) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+      for (std::size_t cell = 0; cell < 100; ++cell) {
+        const double share = drawn_share(Sequence::halton, seed, cell, draw);
+        const double least = 1.0 / (powers[draw] * static_cast<double>(bases[draw] - 1)) - 1e-12;
+        EXPECT_GE(std::min(share, 1.0 - share), least) << "base " << bases[draw] << ", cell " << cell;
+      }
+    }
+  }
+}
+
 TEST(Draws, DoNotGoWithEachOther) {
   for (const Sequence sequence : {Sequence::random, Sequence::halton}) {
     for (std::size_t draw = 0; draw < 32; draw += 5) {

@@ -350,6 +350,8 @@ std::optional<std::string> missing_number(const std::string& name, const Program
   const bool is_of_scene = drawable->part == DrawnPart::thing &&
                            (has(scene.objects, object_numbers) || has(scene.robots, partner_numbers));
   const bool is_of_signal = drawable->part == DrawnPart::signal && has(scene.signals, signal_numbers);
+  if (drawable->part == DrawnPart::state && number_named(state_numbers, drawable->key) != nullptr)
+    return "`" + name + "` is not measured in the scene: the robot knows where it is from its wheels alone";
   if (!is_of_scene && !is_of_signal) return std::nullopt;
   return "`" + drawable->owner + "` has no `" + drawable->key +
          "` in the scene: nothing is there to be drawn";

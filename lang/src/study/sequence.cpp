@@ -2,8 +2,10 @@
 //
 // `halton` is the radical inverse of the cell's number in the draw's prime base b, its digits permuted:
 //
-//   u = sum_k perm(d_k) b^-k,    n = sum_k d_k b^(k-1)
+//   u = sum_k perm(d_k) b^-k,    n = sum_k d_k b^(k-1),    n = cell + 1
 //
+// The number 0 has zeros alone. In base 2 they make it an end of the unit interval: 8 deviations of a normal
+// distribution.
 // Without the permutation, shares of large bases rise together for the first b cells
 // (Braaten, Weller 1979).
 #include <algorithm>
@@ -104,7 +106,7 @@ double Distribution::quantile(double u) const {
 double drawn_share(Sequence sequence, std::uint64_t seed, std::size_t cell, std::size_t draw) {
   const std::uint64_t of_draw = mixed(seed, draw);
   if (sequence == Sequence::random) return share_of(mixed(of_draw, cell));
-  return radical_inverse(primes.at(draw), cell, of_draw);
+  return radical_inverse(primes.at(draw), cell + 1, of_draw);
 }
 
 std::uint64_t seed_of_cell(std::uint64_t seed, std::size_t cell) {
