@@ -28,15 +28,13 @@ lang::Program rough(const std::string& robot) {
   return program;
 }
 
-constexpr double encoder_noise = 0.1;    // [rad/s] of a rate, one sample: encoders that are differentiated
-constexpr double encoder_count = 1e-3;   // [rad]
-constexpr double encoder_filter = 0.02;  // [s] of the low pass of a driver
+constexpr double encoder_noise = 0.1;   // [rad/s] of a rate, one sample: encoders that are differentiated
+constexpr double encoder_count = 1e-3;  // [rad]
 
 /// Drives the task on its plant, and lets `identification` see what a log holds, and `noisy` what one of
-/// such encoders holds, `filtered` with their rates low-passed. The motors give `factor` of what they are
-/// told.
+/// such encoders holds. The motors give `factor` of what they are told.
 void drive(lang::Program program, DriveIdentification& identification, double load, double factor,
-           DriveIdentification* noisy = nullptr, DriveIdentification* filtered = nullptr) {
+           DriveIdentification* noisy = nullptr) {
   Runner runner(program);
   if (load > 0.0) {
     lang::Fault payload;
@@ -46,10 +44,7 @@ void drive(lang::Program program, DriveIdentification& identification, double lo
   }
   ScenePlant plant(program);
   identification.begin_run(load);
-  for (DriveIdentification* of_encoders : {noisy, filtered}) {
-    if (of_encoders != nullptr) of_encoders->begin_run(load);
-  }
-  Eigen::VectorXd low_passed = Eigen::VectorXd::Zero(program.robot.model.joint_count());
+  if (noisy != nullptr) noisy->begin_run(load);
   std::mt19937 dice(7);
   std::normal_distribution<double> error(0.0, encoder_noise);
   Sensed sensed(program);
@@ -57,11 +52,9 @@ void drive(lang::Program program, DriveIdentification& identification, double lo
     ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
     const Eigen::VectorXd tau = runner.step(sensed);
     identification.add(sensed.time, sensed.state.q, sensed.state.qd, tau / factor);
-    const Eigen::VectorXd counted = encoder_count * (sensed.state.q / encoder_count).array().round();
-    const Eigen::VectorXd rates = sensed.state.qd.unaryExpr([&](double rate) { return rate + error(dice); });
-    low_passed += program.robot.control_period / encoder_filter * (rates - low_passed);
-    if (noisy != nullptr) noisy->add(sensed.time, counted, rates, tau / factor);
-    if (filtered != nullptr) filtered->add(sensed.time, counted, low_passed, tau / factor);
+    if (noisy != nullptr)
+      noisy->add(sensed.time, encoder_count * (sensed.state.q / encoder_count).array().round(),
+                 sensed.state.qd.unaryExpr([&](double rate) { return rate + error(dice); }), tau / factor);
     ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
   }
 }
@@ -93,11 +86,10 @@ TEST(DriveIdentification, FindsFrictionAndTorqueConstantsOfAKnownMass) {
 TEST(DriveIdentification, FindsTheMassTooFromTwoRunsWithAKnownLoad) {
   const lang::Program program = rough("mecanum");
   const double mass = program.robot.model.total_mass();
-  DriveIdentification identification(program.robot, std::nullopt), noisy(identification),
-      filtered(identification);
-  drive(program, identification, 0.0, 1.0, &noisy, &filtered);
-  drive(program, identification, 15.0, 1.0, &noisy, &filtered);
-  for (const Identification& found : {identification.solve(), noisy.solve(), filtered.solve()}) {
+  DriveIdentification identification(program.robot, std::nullopt), noisy(program.robot, std::nullopt);
+  drive(program, identification, 0.0, 1.0, &noisy);
+  drive(program, identification, 15.0, 1.0, &noisy);
+  for (const Identification& found : {identification.solve(), noisy.solve()}) {
     expect_true(found, program.robot, 1.0);
     EXPECT_NEAR(found.mass.value, mass, bound * mass);
     EXPECT_LT(found.mass.error, bound * mass);

@@ -17,22 +17,18 @@
 // The lines are linear in each motor's torque factor k_i, dry friction c_i and viscous friction d_i. They are
 // linear in J, and in m where it is asked for.
 //
-// The momenta p come from two measurements. X has them from the angles that the wheels turned by on each
-// ramp, and Z from the measured rates. Both are noisy, and a column that has noise is estimated too small by
-// least squares: m and J stand before such columns. The two noises are not correlated, and so there is none
-// in a product of both: Z is the instrument,
+// Measured rates are noisy, and a column that has noise is estimated too small by least squares: m and J
+// stand before such columns. So the means are taken twice, of every other sample, X and Z. Their noise is not
+// correlated, and so it is in no product of both:
 //
-//   b = (Z'X)^-1 Z'y_X,   s = z (y_X - x b) of each line,
-//   covariance of b = (Z'X)^-1 (sum s s') (X'Z)^-1.
-//
-// An instrument may be wrong as long as it goes with the truth. So rates may come late, through a low pass.
+//   A = (Z'X + X'Z)/2,   b = A^-1 (Z'y_X + X'y_Z)/2,
+//   s = (z (y_X - x b) + x (y_Z - z b))/2 of each line,   covariance of b = A^-1 (sum s s') A^-1.
 //
 // A mass scales all of b but itself, so it is known, or a known load makes it so. A window in which a wheel
 // hardly turns, or a caster swings, is left out: their forces are not those of sliding friction.
 #include "zwang/runtime/identification.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -159,35 +155,31 @@ Eigen::Index DriveIdentification::columns() const {
   return 3 * static_cast<Eigen::Index>(motors_.size()) + 1 + (mass_ ? 0 : 1);
 }
 
-double DriveIdentification::trapezoid_at(double time) const {
-  return std::min({1.0, (time - samples_.front().time) / ramp, (samples_.back().time - time) / ramp});
-}
-
 /// f of each interval, at its middle.
 std::vector<double> DriveIdentification::trapezoid() const {
   std::vector<double> f;
-  for (std::size_t i = 0; i + 1 < samples_.size(); ++i)
-    f.push_back(trapezoid_at(0.5 * (samples_[i].time + samples_[i + 1].time)));
+  const double begin = samples_.front().time, end = samples_.back().time;
+  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
+    const double middle = 0.5 * (samples_[i].time + samples_[i + 1].time);
+    f.push_back(std::min({1.0, (middle - begin) / ramp, (end - middle) / ramp}));
+  }
   return f;
 }
 
-/// sum f_i (w_(i+1) - w_i) of the measured rates.
-Eigen::VectorXd DriveIdentification::change_of_rates(const std::vector<double>& f) const {
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wheels_.size()));
-  for (std::size_t i = 0; i < f.size(); ++i) change += f[i] * (samples_[i + 1].rates - samples_[i].rates);
-  return change;
-}
-
-/// The same of rates that are angles over times, those of intervals: - sum (f(t_(i+1)) - f(t_i)) w_i.
-Eigen::VectorXd DriveIdentification::change_of_angles() const {
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wheels_.size()));
-  for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
-    const Sample &a = samples_[i], &b = samples_[i + 1];
-    const double share = (trapezoid_at(a.time) - trapezoid_at(b.time)) / (b.time - a.time);
-    for (std::size_t w = 0; w < wheels_.size(); ++w)
-      change(static_cast<Eigen::Index>(w)) += share * (b.q(wheels_[w].joint) - a.q(wheels_[w].joint));
+/// sum f_i (p_(i+1) - p_i) = sum w_i p_i, of the samples of one parity. They stand for all: on each ramp
+/// their weights are as much in sum.
+Eigen::VectorXd DriveIdentification::weights(const std::vector<double>& f, std::size_t parity) const {
+  const auto count = static_cast<Eigen::Index>(samples_.size());
+  Eigen::VectorXd all(count), some = Eigen::VectorXd::Zero(count);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    all(k) = (i > 0 ? f[i - 1] : 0.0) - (i < f.size() ? f[i] : 0.0);
+    if (i % 2 == parity) some(k) = all(k);
   }
-  return change;
+  const double falls = some.cwiseMin(0.0).sum(), rises = some.cwiseMax(0.0).sum();
+  if (falls == 0.0 || rises == 0.0) return all;
+  return all.cwiseMin(0.0).sum() / falls * some.cwiseMin(0.0) +
+         all.cwiseMax(0.0).sum() / rises * some.cwiseMax(0.0);
 }
 
 void DriveIdentification::end_window() {
@@ -204,13 +196,18 @@ void DriveIdentification::end_window() {
     sums.turned +=
         step * Eigen::Vector3d(-mean.z() * p.y(), mean.z() * p.x(), mean.x() * p.y() - mean.y() * p.x());
   }
-  add_lines(sums, change_of_angles(), by_angles_);
-  add_lines(sums, change_of_rates(f), by_rates_);
+  add_lines(sums, weights(f, 0), even_);
+  add_lines(sums, weights(f, 1), odd_);
 }
 
-void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& rate_change,
-                                    Lines& lines) const {
-  const Eigen::Vector3d twist_change = twist_of_ * rate_change;
+void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& weights, Lines& lines) const {
+  Eigen::Vector3d twist_change = Eigen::Vector3d::Zero();
+  Eigen::VectorXd rate_change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(wheels_.size()));
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const double weight = weights(static_cast<Eigen::Index>(i));
+    twist_change += weight * samples_[i].twist;
+    rate_change += weight * samples_[i].rates;
+  }
   const Eigen::Vector3d change = momentum_per_mass(twist_change) + sums.turned;
   Eigen::Vector3d known = (added_load_ + mass_.value_or(0.0)) * change;
   known.head<2>() += caster_mass_ * twist_change.head<2>();
@@ -238,20 +235,21 @@ void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& r
 }
 
 Identification DriveIdentification::solve() const {
-  const std::size_t windows = by_angles_.left.size() / static_cast<std::size_t>(permitted_.cols());
+  const std::size_t windows = even_.left.size() / static_cast<std::size_t>(permitted_.cols());
   if (windows < fewest_windows)
     throw NotIdentified("too little motion: " + std::to_string(windows) +
                         " windows of 0.2 s in which all wheels "
                         "turn, of " +
                         std::to_string(fewest_windows) + " that are needed");
-  const auto lines = static_cast<Eigen::Index>(by_angles_.left.size());
+  const auto lines = static_cast<Eigen::Index>(even_.left.size());
   Eigen::MatrixXd x(lines, columns()), z(lines, columns());
-  Eigen::VectorXd y(lines);
+  Eigen::VectorXd y_x(lines), y_z(lines);
   for (Eigen::Index i = 0; i < lines; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    x.row(i) = by_angles_.left[k];
-    z.row(i) = by_rates_.left[k];
-    y(i) = by_angles_.right[k];
+    x.row(i) = even_.left[k];
+    z.row(i) = odd_.left[k];
+    y_x(i) = even_.right[k];
+    y_z(i) = odd_.right[k];
   }
   const Eigen::VectorXd squares = x.cwiseProduct(z).colwise().sum();
   if (squares.minCoeff() <= 0.0)
@@ -259,22 +257,22 @@ Identification DriveIdentification::solve() const {
   const Eigen::VectorXd norms = squares.cwiseSqrt();
   x *= norms.cwiseInverse().asDiagonal();
   z *= norms.cwiseInverse().asDiagonal();
-  // At unit columns. Up to the most condition an inverse keeps six of sixteen digits. Noise that is larger
-  // than the motion makes an eigenvalue of the symmetric part negative.
-  const Eigen::MatrixXd gram = z.transpose() * x;
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (gram + gram.transpose())).eigenvalues();
+  // A = V D V' at unit columns. Up to the most condition its inverse keeps six of sixteen digits. Noise that
+  // is larger than the motion makes an eigenvalue negative.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(0.5 * (z.transpose() * x + x.transpose() * z));
+  const Eigen::VectorXd& values = gram.eigenvalues();  // the least comes first
   if (!(values(0) * most_condition * most_condition > values(values.size() - 1)))
     throw NotIdentified(
         "too little variety: friction, torque and mass cannot be told apart. Drive ahead, back and "
         "turn at unlike speeds, as the task `identify` does");
-  const Eigen::MatrixXd inverse = gram.inverse();
-  const Eigen::VectorXd scaled = inverse * (z.transpose() * y);
-  const Eigen::VectorXd off = y - x * scaled;
-  const Eigen::MatrixXd scores = off.asDiagonal() * z;
+  const Eigen::MatrixXd& v = gram.eigenvectors();
+  const Eigen::MatrixXd inverse = v * values.cwiseInverse().asDiagonal() * v.transpose();
+  const Eigen::VectorXd scaled = inverse * (0.5 * (z.transpose() * y_x + x.transpose() * y_z));
+  const Eigen::VectorXd off_x = y_x - x * scaled, off_z = y_z - z * scaled;
+  const Eigen::MatrixXd scores = 0.5 * (off_x.asDiagonal() * z + off_z.asDiagonal() * x);
   const double freedom =
       static_cast<double>(lines) / std::max<double>(1.0, static_cast<double>(lines - columns()));
-  const Eigen::MatrixXd covariance = freedom * inverse * (scores.transpose() * scores) * inverse.transpose();
+  const Eigen::MatrixXd covariance = freedom * inverse * (scores.transpose() * scores) * inverse;
   const auto estimate = [&](Eigen::Index n) {
     return Estimate{scaled(n) / norms(n), std::sqrt(covariance(n, n)) / norms(n)};
   };

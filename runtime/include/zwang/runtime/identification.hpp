@@ -84,12 +84,9 @@ class ZWANG_EXPORT DriveIdentification {
   };
   void find_wheels(const lang::Robot& robot);
   void end_window();
-  double trapezoid_at(double time) const;
   std::vector<double> trapezoid() const;
-  Eigen::VectorXd change_of_rates(const std::vector<double>& f) const;
-  Eigen::VectorXd change_of_angles() const;
-  /// `rate_change`: of each wheel, weighed by the trapezoid.
-  void add_lines(const Window& sums, const Eigen::VectorXd& rate_change, Lines& lines) const;
+  Eigen::VectorXd weights(const std::vector<double>& f, std::size_t parity) const;
+  void add_lines(const Window& sums, const Eigen::VectorXd& weights, Lines& lines) const;
   /// m^-1 (p_x, p_y, L - J w) of a twist.
   Eigen::Vector3d momentum_per_mass(const Eigen::Vector3d& twist) const;
   Eigen::Index columns() const;
@@ -106,7 +103,7 @@ class ZWANG_EXPORT DriveIdentification {
   double added_load_ = 0.0;
   std::vector<Sample> samples_;  ///< of the window that is open
   bool is_clean_ = true;         ///< the forces of that window are those of sliding friction
-  Lines by_angles_, by_rates_;   ///< by what the momenta are taken from
+  Lines even_, odd_;             ///< by the rates of every other sample
 };
 
 }  // namespace zwang::runtime
