@@ -192,6 +192,20 @@ TEST(TaskDraft, holds_the_heading_of_a_base_that_its_mass_turns) {
   EXPECT_NE(drafted("wall_align", fit).task.find("rz: {velocity: 0 rad/s, force: +-"), std::string::npos);
 }
 
+// Half of what 5 N square up on half of the front.
+TEST(TaskDraft, holds_a_base_on_heavy_casters_more_gently_than_the_wall_does) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  fit.mass = 60.0;
+  fit.front_lever = 0.2;
+  const std::string shipped_row = "rz: {velocity: 0 rad/s, time_constant: 0.4 s}";
+  fit.effective_mass = 1.9 * fit.mass;
+  EXPECT_NE(drafted("wall_align", fit).task.find(shipped_row), std::string::npos);
+  fit.effective_mass = 2.1 * fit.mass;
+  const std::string task = drafted("wall_align", fit).task;
+  EXPECT_NE(task.find("rz: {velocity: 0 rad/s, time_constant: 0.4 s, force: +-0.5 N m}"), std::string::npos)
+      << task;
+}
+
 // Round ahead: the shipped omni base is a hexagon or the like; a circle of 16 corners is none that a wall
 // turns.
 TEST(TaskDraft, aligns_no_round_base) {

@@ -233,6 +233,18 @@ Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels) {
           figure(0.5 * first.on_the_rim, "kg m^2"));
 }
 
+Diagnostic unbalanced_wheels(const std::vector<UnbalancedWheel>& wheels) {
+  const UnbalancedWheel& first = wheels.front();
+  const std::string others =
+      wheels.size() > 1 ? "; so it is with " + std::to_string(wheels.size() - 1) + " more" : std::string();
+  return warning("W875", first.span,
+                 "wheel " + in_ticks(first.joint) + " has its centre of mass " + in_length(first.beside) +
+                     " beside its axle: its weight drives the base with up to " + figure(first.force, "N") +
+                     others,
+                 "list its link under `inertias` in the robot file, as `LINK: {}`: it counts as a disc about "
+                 "its axle then");
+}
+
 Diagnostic negligible_masses(const std::vector<TinyMass>& links) {
   const TinyMass& first = links.front();
   const std::string others =

@@ -86,6 +86,14 @@ struct HeavyWheel {
 };
 /// Not empty: who draws one so draws all so.
 Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels);
+struct UnbalancedWheel {
+  Span span;
+  std::string joint;
+  double beside;  ///< [m] of its centre of mass from its axle
+  double force;   ///< [N] with which its weight drives the base at most
+};
+/// Not empty.
+Diagnostic unbalanced_wheels(const std::vector<UnbalancedWheel>& wheels);
 /// Of a link in the URDF.
 struct TinyMass {
   std::string link;

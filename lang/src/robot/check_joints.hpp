@@ -23,7 +23,7 @@ void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagn
 /// W869: wheels that turn across their own cylinder.
 void check_wheel_shapes(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
 /// W870: that a wheel, and what swivels it, turn as their mass can. URDFs that only draw a robot have 1 kg
-/// m^2 everywhere.
+/// m^2 everywhere. W875: that its centre of mass lies on its axle.
 void check_wheel_inertias(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

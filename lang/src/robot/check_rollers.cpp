@@ -144,6 +144,21 @@ void check_swivel_inertias(const RobotFile& file, const Robot& robot, Diagnostic
   if (!heavy.empty()) diagnostics.add(wording::swivel_inertia_beyond_reach(heavy));
 }
 
+void check_balance(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics) {
+  std::vector<wording::UnbalancedWheel> wheels;
+  const double weight = robot.model.total_mass() * robot.model.gravity().norm();
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
+    const double beside = beside_axis(body.inertia, body.joint.axis);
+    const double force = body.inertia.mass * robot.model.gravity().norm() * beside / wheel.radius;
+    if (force <= most_imbalance * weight) continue;
+    const auto text = std::find_if(file.wheels.begin(), file.wheels.end(),
+                                   [&](const WheelText& w) { return w.joint.text == body.joint.name; });
+    wheels.push_back({text->joint.span, body.joint.name, beside, force});
+  }
+  if (!wheels.empty()) diagnostics.add(wording::unbalanced_wheels(wheels));
+}
+
 }  // namespace
 
 void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics) {
@@ -198,6 +213,7 @@ void check_wheel_inertias(const RobotFile& file, const Robot& robot, Diagnostics
   }
   if (!heavy.empty()) diagnostics.add(wording::wheel_inertia_beyond_rim(heavy));
   check_swivel_inertias(file, robot, diagnostics);
+  check_balance(file, robot, diagnostics);
 }
 
 }  // namespace zwang::lang

@@ -35,7 +35,7 @@ class DraftBodies {
       if (!is_listed(held, urdf_.joint_above(link)->joint.name)) add(link);
     }
     for (const DraftWheel& wheel : wheels_) {
-      if (is_beyond_rim(wheel)) add(wheel.link);
+      if (is_beyond_rim(wheel) || is_out_of_balance(wheel)) add(wheel.link);
       if (!wheel.swivel.empty() && is_beyond_reach(wheel)) add(urdf_.find_joint(wheel.swivel)->child);
     }
     Urdf standing = urdf_;
@@ -68,6 +68,14 @@ class DraftBodies {
     const UrdfLink& link = *urdf_.find_link(wheel.link);
     const double radius = wheel.radius.value_or(0.3);
     return moment_about(wheel.joint, link) > link.inertia.mass * radius * radius;
+  }
+
+  bool is_out_of_balance(const DraftWheel& wheel) const {
+    const solver::RigidInertia& inertia = urdf_.find_link(wheel.link)->inertia;
+    const double beside = beside_axis(inertia, urdf_.find_joint(wheel.joint)->joint.axis);
+    double mass = 0.0;
+    for (const UrdfLink& link : urdf_.links) mass += link.inertia.mass;
+    return inertia.mass * beside > most_imbalance * mass * wheel.radius.value_or(0.3);
   }
 
   static double reach_of(const DraftWheel& wheel) { return wheel.trail + wheel.radius.value_or(0.3); }
@@ -113,6 +121,17 @@ std::vector<DraftBody> find_draft_bodies(const Urdf& urdf, const FoundWheels& fo
                                          const std::vector<std::string>& held,
                                          const std::vector<Eigen::Vector2d>& outline) {
   return DraftBodies(urdf, found, outline).find(open, held);
+}
+
+bool share_mass(std::vector<DraftBody>& bodies, const std::vector<DraftWheel>& wheels) {
+  const auto is_of_wheel = [&](const DraftBody& body) {
+    return body.lacks_mass && std::any_of(wheels.begin(), wheels.end(),
+                                          [&](const DraftWheel& wheel) { return wheel.link == body.link; });
+  };
+  const auto count = std::count_if(bodies.begin(), bodies.end(), is_of_wheel);
+  if (count < 2 || static_cast<std::size_t>(count) != wheels.size()) return false;
+  for (DraftBody& body : bodies) body.lacks_mass = body.lacks_mass && !is_of_wheel(body);
+  return true;
 }
 
 std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base,

@@ -19,6 +19,9 @@ std::vector<DraftBody> find_draft_bodies(const Urdf& urdf, const FoundWheels& fo
                                          const std::vector<std::string>& held,
                                          const std::vector<Eigen::Vector2d>& outline);
 
+/// Whether all wheels with a motor lack a mass. It stands once in `each_wheel` then, and not at their links.
+bool share_mass(std::vector<DraftBody>& bodies, const std::vector<DraftWheel>& wheels);
+
 /// The section. Masses that the URDF does not give stand as `base_mass` of the base, else as `mass`.
 std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base,
                            const std::string& base_mass, const std::string& mass);

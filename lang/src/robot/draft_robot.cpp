@@ -65,6 +65,7 @@ class Drafter {
     folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
     if (drive_ == DriveKind::swivels) folded_.posture.merge(steered_ahead(urdf_, found_));
     bodies_ = find_draft_bodies(urdf_, found_, open, held_, frames_.outline());
+    shares_mass_ = share_mass(bodies_, found_.wheels);
   }
 
   /// Proposes as hard a brake [m/s^2], where it is less.
@@ -119,8 +120,7 @@ class Drafter {
     for (const std::string& joint : held_) lines.push_back("`" + joint + "` does not move");
     if (!bodies_.empty())
       lines.push_back("discs and balls for links that move and have no inertia, or none that a body has");
-    const auto lacks_mass = [](const DraftBody& body) { return body.lacks_mass; };
-    if (std::any_of(bodies_.begin(), bodies_.end(), lacks_mass))
+    if (shares_mass_ || std::ranges::any_of(bodies_, &DraftBody::lacks_mass))
       lines.push_back("10 kg of the base and 0.1 kg of another link where the URDF gives no mass");
     return lines;
   }
@@ -205,8 +205,7 @@ class Drafter {
     return lines;
   }
 
-  /// Open places of all wheels alike stand once, in `each_wheel`.
-  /// Wheels whose axles are not level have different radii.
+  /// What all wheels lack stands once, in `each_wheel`. Wheels on tilted axles have different radii.
   bool share_radius() const {
     const auto height = [](const DraftWheel& a, const DraftWheel& b) { return a.at[2] < b.at[2]; };
     const auto [low, high] = std::minmax_element(found_.wheels.begin(), found_.wheels.end(), height);
@@ -227,6 +226,7 @@ class Drafter {
       add("radius", filling.radius,
           "radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.");
     if (share_effort()) add("effort", filling.effort, "effort: the largest torque of a wheel, as `2 N m`.");
+    if (shares_mass_) add("mass", filling.mass, "mass: of each wheel, as `0.5 kg`; the URDF has none.");
     if (is_skid())
       add("kind", "skid", "kind: wheels that are coupled or have no motor have no rollers: they slide.");
     if (keys.empty()) return "";
@@ -345,6 +345,7 @@ class Drafter {
   DraftFrames frames_;
   std::vector<std::string> held_;  ///< joints of `fixed`
   std::vector<DraftBody> bodies_;  ///< links whose inertia is in the draft
+  bool shares_mass_ = false;       ///< all wheels with a motor have one in `each_wheel`
   FoldedArm folded_;
   double deceleration_ = 1.0;  ///< [m/s^2] as hard as most bases brake
 };

@@ -28,6 +28,10 @@ constexpr double degree_of_start = std::numbers::pi / 180.0;
 /// As little a base may turn on its way to a wall by its own mass: nobody sees it. [rad]
 constexpr double most_turn_by_itself = 1.0 * degree_of_start;
 
+/// So many times its own mass a base weighs along x whose swivels turn over as it is pushed. Rotors behind
+/// gears seldom weigh as much as the base.
+constexpr double heavy_casters = 2.0;
+
 /// Two digits.
 double rounded(double value) {
   const double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
@@ -189,6 +193,8 @@ class Fitting {
   void fit_forces(std::string& text) const {
     if (task_ == "wall_align") replace(text, "value: 20 N, range: [5 N, 40 N]", range_of(20, 5, 40));
     if (task_ == "wall_align" && (fit_.freedoms == Freedoms::two || is_turned_by_its_mass())) damp_turn(text);
+    if (task_ == "wall_align" && fit_.mass > 0.0 && fit_.effective_mass > heavy_casters * fit_.mass)
+      hold_gently(text);
     if (task_ == "obstacle") replace(text, "value: 40 N, range: [10 N, 120 N]", range_of(40, 10, 120));
     if (task_ == "docking") {
       replace(text, "value: 20 N, range: [10 N, 25 N]", range_of(20, 10, 25));
@@ -200,6 +206,16 @@ class Fitting {
       // 0.9 m/s^2 x mass: a base that is allowed 1 m/s^2 can press so.
       replace(text, "force: 56 N", "force: " + force(0.9 * shipped_mass));
     }
+  }
+
+  /// [N m] Half of the moment with which the least push squares the base up.
+  double gentle_moment() const { return rounded(0.5 * force_of(5.0) * lever()); }
+
+  /// Casters that turn over weigh along x, and hardly across: the row that holds the heading makes up for a
+  /// turn that the push would bring, and the wall prevents. Its moment is less than the wall's.
+  void hold_gently(std::string& text) const {
+    const std::string row = "rz: {velocity: 0 rad/s, time_constant: 0.4 s";
+    replace(text, row + "}", row + ", force: +-" + wording::figure(gentle_moment(), "N m") + "}");
   }
 
   /// A mass that lies d beside the base's origin turns a base that nothing holds: I w' = m d v'. On its way s
@@ -215,12 +231,11 @@ class Fitting {
   /// A moment that is bounded holds it. The wall still turns it: the least push has twice that moment about
   /// the nearer end of the edge ahead.
   void damp_turn(std::string& text) const {
-    const double moment = rounded(0.5 * force_of(5.0) * lever());
     replace(text, "        rz: free\n",
             "        # A mass beside or behind the base's origin would turn the base on its way. The wall is "
             "stronger.\n"
             "        rz: {velocity: 0 rad/s, force: +-" +
-                wording::figure(moment, "N m") + "}\n");
+                wording::figure(gentle_moment(), "N m") + "}\n");
   }
 
   /// The shipped time allows for the shipped way: 0.5 m at 0.08 m/s, 5 cm at 1 cm/s.

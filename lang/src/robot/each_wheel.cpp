@@ -62,6 +62,7 @@ EachWheel parse_each_wheel(const Node& node, Diagnostics& diagnostics) {
     each.effort = parse_value(*effort, "each_wheel.effort", diagnostics);
   each.gear = positive("gear", dimension::none, false);
   each.rotor_inertia = positive("rotor_inertia", dimension::inertia, true);
+  each.mass = positive("mass", dimension::mass, false);
   map.finish();
   return each;
 }

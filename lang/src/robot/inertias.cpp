@@ -16,6 +16,12 @@ const WheelText* wheel_on(const RobotFile& file, const UrdfJoint* joint) {
   return wheel == file.wheels.end() ? nullptr : &*wheel;
 }
 
+bool is_driven(const RobotFile& file, const WheelText* wheel) {
+  return wheel != nullptr &&
+         std::any_of(file.actuators.begin(), file.actuators.end(),
+                     [&](const ActuatorText& motor) { return motor.joint.text == wheel->joint.text; });
+}
+
 // A solid cylinder of mass m, radius r and length r / 2 about its axis a, and across it:
 //   I_a = m r^2 / 2,   I_t = m (3 r^2 + (r / 2)^2) / 12
 solver::Matrix3 disc(double mass, double radius, const solver::Vector3& axis) {
@@ -56,9 +62,10 @@ void apply_inertias(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics)
     const UrdfJoint* joint = urdf.joint_above(link->name);
     const WheelText* wheel = wheel_on(file, joint);
     const double known = link->inertia.mass;
-    const std::optional<double> mass = text.mass     ? text.mass
-                                       : known > 0.0 ? std::optional(known)
-                                                     : std::nullopt;
+    const std::optional<double> mass = text.mass                ? text.mass
+                                       : known > 0.0            ? std::optional(known)
+                                       : is_driven(file, wheel) ? file.each_wheel.mass
+                                                                : std::nullopt;
     const std::optional<double> radius = text.radius        ? text.radius
                                          : wheel != nullptr ? wheel->radius
                                                             : std::nullopt;
@@ -66,8 +73,9 @@ void apply_inertias(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics)
     if (!mass) diagnostics.add(wording::missing_key(text.link.span, what, "mass"));
     if (!radius) diagnostics.add(wording::missing_key(text.link.span, what, "radius"));
     if (!mass || !radius) continue;
-    const solver::Vector3 com =
+    solver::Vector3 com =
         known > 0.0 ? solver::Vector3(link->inertia.first_moment / known) : solver::Vector3::Zero();
+    if (wheel != nullptr) com = joint->joint.axis.dot(com) * joint->joint.axis;
     link->inertia = solver::RigidInertia::from_com(
         *mass, com, wheel != nullptr ? disc(*mass, *radius, joint->joint.axis) : ball(*mass, *radius));
   }

@@ -4,6 +4,12 @@
 
 namespace zwang::lang {
 
+double beside_axis(const solver::RigidInertia& inertia, const solver::Vector3& axis) {
+  if (!(inertia.mass > 0.0)) return 0.0;
+  const solver::Vector3 com = inertia.first_moment / inertia.mass;
+  return (com - axis.dot(com) * axis).norm();
+}
+
 // The moments are a <= b < c, and a + b < c. The least change (da, db, dc) with a + da + b + db = c + dc is t
 // (1, 1, -1), t = (c - a - b) / 3.
 std::optional<CorrectedInertia> corrected(const solver::RigidInertia& inertia) {

@@ -32,6 +32,7 @@ struct EachWheel {
   std::optional<ValueText> effort;
   std::optional<double> gear;
   std::optional<double> rotor_inertia;  ///< [kg m^2]
+  std::optional<double> mass;           ///< [kg] of one under `inertias` to which the URDF gives none
 };
 
 /// A body for a link, in the place of the URDF's.

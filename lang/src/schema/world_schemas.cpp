@@ -44,7 +44,8 @@ Json each_wheel() {
        {"radius", reference("quantity", "from the axle to the ground")},
        {"effort", reference("quantity", "largest torque on the joint's side; default the URDF's")},
        {"gear", reference("quantity", "turns of the motor for one of the joint")},
-       {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
+       {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")},
+       {"mass", reference("quantity", "of a wheel under `inertias` to which the URDF gives none")}});
 }
 
 Json each_joint() {
