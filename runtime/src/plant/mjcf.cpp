@@ -118,7 +118,21 @@ class MjcfWriter {
       text_ += inertial(inertia_of(mass, g));
     }
     if (is_met(object)) object.leans() ? write_leaning_faces(object, g, name) : write_faces(g, name);
+    if (has_tips()) write_solid(g, name);
     text_ += "</body>\n";
+  }
+
+  bool has_tips() const {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [](const SimulatedRobot& robot) { return !robot.tips.empty(); });
+  }
+
+  /// The object as it is, which the tips of arms meet.
+  void write_solid(const ObjectGeometry& g, const std::string& name) {
+    text_ += "<geom" + attribute("name", name + "_solid") +
+             (g.round ? attribute("type", "cylinder") + attribute("size", list_of(g.half.x(), g.half.z()))
+                      : attribute("type", "box") + attribute("size", list_of(g.half))) +
+             "/>\n";
   }
 
   /// The joint of an object with a guide, and its inertia. The guide's other effects are in object_guide.hpp.
@@ -188,8 +202,7 @@ class MjcfWriter {
     for (const RobotText& robot : texts_) text_ += robot.contacts;
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
       for (const SimulatedRobot& robot : robots_) {
-        if (!is_met(scene_.objects[k], robot)) continue;
-        if (!robot.outline.empty()) write_meeting_of_robot(k, robot);
+        if (!robot.outline.empty() && is_met(scene_.objects[k], robot)) write_meeting_of_robot(k, robot);
         for (std::size_t t = 0; t < robot.tips.size(); ++t) write_meeting_of_tip(k, robot, t);
       }
       for (std::size_t other = 0; other < k; ++other) {
@@ -262,10 +275,8 @@ class MjcfWriter {
       write_spring(edge_of(k, c), prism, pair_friction(object.friction));
   }
 
-  /// A round object is met in the bumper's plane only, where no arm reaches.
   void write_meeting_of_tip(std::size_t k, const SimulatedRobot& robot, std::size_t tip) {
-    if (scene_.objects[k].shape == ShapeKind::cylinder) return;
-    write_spring(numbered("object", k) + "_face", robot.named("tip", tip),
+    write_spring(numbered("object", k) + "_solid", robot.named("tip", tip),
                  pair_friction(scene_.objects[k].friction));
   }
 

@@ -8,13 +8,14 @@
 ///   bumper_prism, skid_<c>            of the robot's outline
 ///   hull                              the part that lies on the floor once the base has fallen
 ///   tip_<t>                           of its arms
-///   object_<k>                        body of the scene, with geoms object_<k>_face and object_<k>_edge_<c>
+///   object_<k>                        body of the scene, with geoms object_<k>_face and object_<k>_edge_<c>; for arms
+///                                     object_<k>_solid
 ///   dock_<k>                          equality; those of robots are counted on after the objects'
 /// All names of the scene's robots start with `partner_<r>_`, r from 1.
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
-/// other, each pair one contact point. An arm meets faces with its tip, at any height. A corner is a sphere
-/// of 1 um tangent to both of its sides. Robots meet each other in the same way. Movable objects slide in the
+/// other, each pair one contact point. The tip of an arm meets objects as they are. A corner is a sphere of
+/// 1 um tangent to both of its sides. Robots meet each other in the same way. Movable objects slide in the
 /// plane, on joints `object_<k>_x`, `_y`, `_turn`: their friction is in floor_friction.hpp.
 #pragma once
 
