@@ -38,8 +38,11 @@ bool drives_to_a_place(const PlannedAxis& axis) {
          !axis.is_set && !axis.is_feature() && !axis.is_on_path && axis.move.body > 0;
 }
 
-void tell(const PlannedAxis& axis, const wording::Bound& left, const Span& joint, Remarks& remarks) {
-  const wording::Bound asked{axis.path, "position", left.unit, *axis.target, *axis.target};
+/// In the unit of `left`, of which `unit` is one. [rad] or [m]
+void tell(const PlannedAxis& axis, wording::Bound left, double unit, const Span& joint, Remarks& remarks) {
+  const wording::Bound asked{axis.path, left.quantity, left.unit, *axis.target / unit, *axis.target / unit};
+  left.low /= unit;
+  left.high /= unit;
   remarks.add(wording::beyond_a_range(axis.driver_span(), asked, left, joint));
 }
 
@@ -68,8 +71,8 @@ void ask_turn(const PlannedAxis& axis, const Robot& robot, const solver::State& 
   if (away <= 0.5 * (joint.upper - joint.lower) + 1e-6) return;
   const double one = now + sign * (joint.lower - start.q(j)), other = now + sign * (joint.upper - start.q(j));
   tell(axis,
-       {"the travel of `" + joint.name + "`", "position", "rad", std::min(one, other), std::max(one, other)},
-       robot.joint_spans[static_cast<std::size_t>(j)], remarks);
+       {"the travel of `" + joint.name + "`", "position", "deg", std::min(one, other), std::max(one, other)},
+       std::numbers::pi / 180.0, robot.joint_spans[static_cast<std::size_t>(j)], remarks);
 }
 
 /// From the first joint's origin to the frame, at most. [m]
@@ -96,7 +99,7 @@ void ask_place(const PlannedAxis& axis, const Robot& robot, const solver::State&
         solver::motion_of({0, {solver::Matrix3::Identity(), origin}, {}}, robot.model, start).pose.position;
   const double middle = along.dot(origin - axis.in.pose.position), way = longest(bodies, axis);
   if (!std::isfinite(way) || std::abs(*axis.target - middle) <= way * (1.0 + 1e-6) + 1e-6) return;
-  tell(axis, {"the arm's reach", "position", "m", middle - way, middle + way}, {}, remarks);
+  tell(axis, {"the arm's reach", "position", "m", middle - way, middle + way}, 1.0, {}, remarks);
 }
 
 }  // namespace
