@@ -113,8 +113,8 @@ std::string truth_table(const RunReport& report, const lang::Diagnostics& diagno
                             with_unit(report.hand.most, "N") + " at most"});
   }
   for (const FaultReport& fault : report.faults) {
-    table.add(
-        {"fault", "of the scene, from " + seconds(fault.at) + " on  " + place(diagnostics, fault.span)});
+    table.add({"fault", "of " + fault.whose() + ", from " + seconds(fault.at) + " on  " +
+                            place(diagnostics, fault.span)});
   }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
@@ -331,8 +331,10 @@ ordered_json story(const RunReport& report, const runtime::Runner& runner,
                         {"asked", asked},
                         {"truth", json_truth(report)},
                         {"seed", report.seed}};
-  for (const FaultReport& fault : report.faults)
-    whole["faults"].push_back({{"at", fault.at}, {"line", fault.span.begin.line}});
+  for (const FaultReport& fault : report.faults) {
+    whole["faults"].push_back({{"at", fault.at}});
+    if (fault.span.exists()) whole["faults"].back()["line"] = fault.span.begin.line;
+  }
   if (!report.because.empty()) whole["because"] = report.because;
   if (report.may_still_move) whole["may_still_move"] = true;
   if (report.why) whole["why"] = json_of(*report.why);

@@ -31,10 +31,12 @@ struct Chapter {
   const lang::Diagnostics* diagnostics = nullptr;  ///< of its files
 };
 
-/// A fault of the scene that had begun.
+/// A fault of the scene, or of the cell of a scenario, that had begun.
 struct FaultReport {
   double at = 0.0;  ///< [s]
-  lang::Span span;
+  lang::Span span;  ///< nowhere: of the cell
+
+  std::string whose() const { return span.exists() ? "the scene" : "the cell"; }
 };
 
 struct RunReport {

@@ -1,5 +1,7 @@
 #include "watched_run.hpp"
 
+#include <algorithm>
+
 #include "output.hpp"
 
 namespace zwang::cli {
@@ -113,13 +115,19 @@ void WatchedRun::conclude(PlantStatus status, double elapsed) {
   for (const lang::Fault& fault : parts_.program.scene->faults) {
     if (fault.robot.empty() && fault.at < elapsed) report.faults.push_back({fault.at, fault.span});
   }
+  for (const lang::Fault& fault : parts_.faults) {
+    if (fault.robot.empty() && fault.at < elapsed) report.faults.push_back({fault.at, {}});
+  }
+  const auto began = [](const FaultReport& a, const FaultReport& b) { return a.at < b.at; };
+  std::stable_sort(report.faults.begin(), report.faults.end(), began);
   if (status == PlantStatus::ok && truth.base.fallen) {
     report.outcome = "fallen";
     report.because = describe_fall(truth.base);
     if (runner.state() == runtime::RunState::running)
       report.because += ", in `" + task_name(runner.scheduler(), runner.scheduler().task()) + "`";
     if (!report.faults.empty())
-      report.because += ", after the scene's fault of " + with_unit(report.faults.back().at, "s", 4);
+      report.because += ", after " + report.faults.back().whose() + "'s fault of " +
+                        with_unit(report.faults.back().at, "s", 4);
     report.why.reset();
   }
   report.elapsed = elapsed;

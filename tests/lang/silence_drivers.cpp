@@ -120,6 +120,58 @@ std::string late_guard_on_a_place(Dice& d, bool fault) {
               head);
 }
 
+/// 0.1 m/s of a driver for so long, on the way to a point that is 4 m away.
+std::string too_far_in_time(Dice& d, bool fault) {
+  const double v = d.number(0.05, 0.2), until = d.number(3.0, 10.0);
+  const double left = 4.0 - v * until * (fault ? d.number(1.2, 2.0) : d.number(0.3, 0.9));
+  return file(
+      task("a", drive("velocity: " + q(v, "m/s")), exit_when("gap < " + q(left, "m"), "done"),
+           "{after: " + q(until, "s") + ", goto: failed}"),
+      "frames: {goal: {parent: world, at: [4 m, 0 m]}}\nfeatures: {gap: {distance: [base_link, goal]}}\n");
+}
+
+std::string way_beyond_a_region_by_force(Dice& d, bool fault) {
+  const double asked = fault ? d.number(3.5, 6.0) : d.number(0.1, 0.5);
+  const std::string body = drive("force: 20 N, velocity: +-0.2 m/s");
+  return file(task("a", body.substr(0, body.size() - 1) + ", fence: {move: footprint, inside: r}}",
+                   exit_when("moved(base_link) > " + q(asked, "m"), "done"), fails),
+              "regions: {r: {polygon: [[-1 m, -1 m], [1 m, -1 m], [1 m, 1 m], [-1 m, 1 m]]}}\n");
+}
+
+std::string push_against_each_other(Dice& d, bool fault) {
+  const double one = d.number(5.0, 20.0), other = d.number(5.0, 20.0) * (fault ? -1.0 : 1.0);
+  const std::string body = drive("force: " + q(one, "N") + ", velocity: +-0.1 m/s");
+  return file(task("a",
+                   body.substr(0, body.size() - 1) +
+                       ", more: {move: bumper, in: base_link, x: {force: " + q(other, "N") + "}}}",
+                   "", "{after: 5 s, goto: done}"));
+}
+
+/// The car steers by 24 deg to either side.
+std::string beyond_the_travel(Dice& d, bool fault) {
+  const double angle =
+      (fault ? d.number(26.0, 170.0) : d.number(1.0, 22.0)) * (d.whole(0, 1) == 0 ? 1.0 : -1.0);
+  return file(task("a",
+                   "constraints: {steer: {move: front_axle, in: base_link, rz: {position: " +
+                       q(angle, "deg") + "}}, stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}}}",
+                   "", "{after: 5 s, goto: done}"),
+              "", "car_base");
+}
+
+/// From its first joint, 0.25 m above the floor and 0.15 m ahead, the arm reaches no farther than 1.5 m.
+std::string beyond_the_reach(Dice& d, bool fault) {
+  const bool is_height = d.whole(0, 1) == 0;
+  const std::string in = is_height ? "in: world, z" : "in: base_link, x";
+  const double place = fault ? d.number(1.8, 5.0) : is_height ? d.number(0.5, 0.8) : d.number(0.4, 0.7);
+  return file(
+      task("a",
+           "constraints: {reach: {move: tool, " + in + ": {position: " + q(place, "m") +
+               ", velocity: +-0.1 m/s}}, stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}, "
+               "y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}",
+           "", "{after: 5 s, goto: done}"),
+      "", "mecanum_arm_base");
+}
+
 }  // namespace
 
 std::vector<Kind> kinds_of_drivers() {
@@ -134,6 +186,11 @@ std::vector<Kind> kinds_of_drivers() {
       {"behind_its_start", {"W511"}, behind_its_start},
       {"many_tasks", {"W511"}, many_tasks},
       {"late_guard_on_a_place", {"W620"}, late_guard_on_a_place},
+      {"too_far_in_time", {"W511"}, too_far_in_time},
+      {"way_beyond_a_region_by_force", {"W511"}, way_beyond_a_region_by_force},
+      {"push_against_each_other", {"W416"}, push_against_each_other},
+      {"beyond_the_travel", {"W416"}, beyond_the_travel},
+      {"beyond_the_reach", {"W416"}, beyond_the_reach},
   };
 }
 

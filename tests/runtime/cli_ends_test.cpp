@@ -112,6 +112,23 @@ TEST_F(Cli, ABaseThatFallsEndsWithOneAndIsNeverDone) {
   EXPECT_GT(j["truth"]["base"]["fallen"].get<double>(), 0.1);
 }
 
+TEST_F(Cli, AFallNamesTheFaultOfItsCell) {
+  const fs::path task = write("stand.yaml", "zwang: 1\nrobot: robots/omni_base.yaml\n" + std::string(stand) +
+                                                "    timeout: {after: 2 s, goto: done}\n");
+  fs::copy(specs + "robots", task.parent_path() / "robots", fs::copy_options::recursive);
+  write("open.yaml", "zwang_scene: 1\nstart: {at: [0 m, 0 m]}\n");
+  const fs::path scenario = write("ahead.yaml",
+                                  "zwang_scenario: 1\ntask: stand.yaml\nscene: open.yaml\n"
+                                  "matrix: {faults: [ahead]}\n"
+                                  "faults: {ahead: [{at: 0.1 s, centre_of_mass: 15 cm}]}\n"
+                                  "expect: [{outcome: fallen}]\n");
+  const Result r = zwang({"run", scenario.string(), "--cell", "faults ahead", "--format", "json"});
+  const json j = json::parse(r.out);
+  const std::string verdict = j["verdict"];
+  EXPECT_TRUE(verdict.ends_with(" deg, in `stand`, after the cell's fault of 0.100 s")) << verdict;
+  EXPECT_EQ(j["faults"], json::parse(R"([{"at": 0.1}])"));
+}
+
 TEST_F(Cli, WhatWouldHaveSwitchedTooIsSaid) {
   const Result r = run_task(std::string(stand) +
                             "    exits:\n      - {when: elapsed > 0.1 s, goto: done}\n"

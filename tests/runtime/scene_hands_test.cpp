@@ -70,6 +70,37 @@ Eigen::VectorXd joints_of(MujocoPlant& plant, const lang::Robot& robot) {
   return sensed.state.q;
 }
 
+/// Ahead of the tool, as high as it says; round or square, 0.2 m across.
+lang::SceneObject post_ahead(double top, bool round) {
+  lang::SceneObject post;
+  post.name = "post";
+  post.shape = round ? lang::ShapeKind::cylinder : lang::ShapeKind::box;
+  post.size = round ? std::array{0.1, 0.1, top} : std::array{0.2, 0.2, top};
+  post.at = {ahead + 0.2, 0.0};
+  return post;
+}
+
+// The tool is 0.5 m high. Pushed with 10 N, the sledge of 5 kg rests on what is higher, and passes over what
+// is lower: a t^2 / 2 after the time t.
+TEST(SceneHands, AnArmMeetsWhatIsAsHighAsItsTip) {
+  lang::Robot robot = sledge_with_tool();
+  robot.pads.clear();
+  for (const bool round : {false, true}) {
+    for (const double top : {0.4, 0.6}) {
+      lang::Scene scene;
+      scene.objects = {post_ahead(top, round)};
+      MujocoPlant plant(robot, scene);
+      run_for(plant, {10.0, 0.0}, 1.3);
+      const double way = joints_of(plant, robot)(0), free = 0.5 * 10.0 / 5.0 * 1.3 * 1.3;
+      if (top > height) {
+        EXPECT_NEAR(way, 0.1, 0.01) << "round " << round;
+      } else {
+        EXPECT_NEAR(way, free, 0.01 * free) << "round " << round;
+      }
+    }
+  }
+}
+
 // The joints' torques -J'w balance a wrench w at the tool.
 TEST(SceneHands, PressOnAnArmsFrameWithAWholeWrench) {
   const lang::Robot robot = sledge_with_tool();

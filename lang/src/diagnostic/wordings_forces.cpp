@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnostic/axis_units.hpp"
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
 #include "words/text.hpp"
@@ -93,6 +94,15 @@ Diagnostic yields_across(const Span& span, const std::string& axis, const Across
 Diagnostic twist_without_pose(const Span& span, const std::string& signal) {
   return error("E104", span, "signal `" + signal + "` has a twist, but is no pose",
                "leave `twist` out, or write `type: pose`");
+}
+
+Diagnostic push_against(const Span& span, const std::string& one, const std::string& other, bool turns,
+                        double left, const Span& other_span) {
+  return with_related(warning("W416", span,
+                              "`" + one + "` and `" + other + "` push against each other: " +
+                                  figure(left, axis_units(turns).force) + " are left",
+                              "leave one of them out"),
+                      other_span, "`" + other + "` pushes here");
 }
 
 }  // namespace zwang::lang::wording

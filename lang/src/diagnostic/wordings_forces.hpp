@@ -47,5 +47,8 @@ Diagnostic yields_across(const Span& span, const std::string& axis, const Across
 
 /// `twist` of a signal that is no pose.
 Diagnostic twist_without_pose(const Span& span, const std::string& signal);
+/// Two forces along one motion, of which `left` is left. [N] or [N m]
+Diagnostic push_against(const Span& span, const std::string& one, const std::string& other, bool turns,
+                        double left, const Span& other_span);
 
 }  // namespace zwang::lang::wording

@@ -42,8 +42,8 @@ std::optional<Confinement> confinement_of(const CheckContext& context, const Gro
   return result;
 }
 
-/// The only axis that is driven, ahead at one velocity, while the others are held; nullptr: there is none
-/// such.
+/// The only axis that is driven, ahead by one velocity or force, while the others are held; nullptr: there is
+/// none such.
 const PlannedAxis* driven_straight(const PlannedTask& plan, const Probe& probe) {
   const PlannedAxis* driven = nullptr;
   bool keeps_heading = false, is_held = probe.base_mobility() < 3;
@@ -56,7 +56,8 @@ const PlannedAxis* driven_straight(const PlannedTask& plan, const Probe& probe) 
     } else if (axis.stands_still()) {
       is_held = true;
     } else {
-      if (driven != nullptr || axis.driver != solver::Quantity::velocity) return nullptr;
+      const bool pushes = axis.driver == solver::Quantity::force;
+      if (driven != nullptr || (axis.driver != solver::Quantity::velocity && !pushes)) return nullptr;
       driven = &axis;
     }
   }

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "physics/confined.hpp"
 
@@ -108,6 +109,18 @@ void compare_rest(const PlannedAxis& axis, const PlannedAxis& limit, Probe& prob
     remarks.add(wording::never_stands(axis.driver_span(), axis.path,
                                       bound_of(limit, Quantity::velocity, *seen),
                                       limit.span(Quantity::velocity)));
+}
+
+/// Two forces along one motion: what is left of them.
+void compare_pushes(const PlannedAxis& axis, const PlannedAxis& earlier, Probe& probe, Remarks& remarks) {
+  const auto pushes = [](const PlannedAxis& one) {
+    return one.driver == Quantity::force && one.target && *one.target != 0.0 && one.text != nullptr;
+  };
+  if (!pushes(axis) || !pushes(earlier)) return;
+  const double other = *earlier.target * probe.alignment(axis, earlier);
+  if (!(other * *axis.target < 0.0)) return;
+  remarks.add(wording::push_against(axis.driver_span(), axis.path, earlier.path, axis.turns(),
+                                    std::abs(*axis.target + other), earlier.driver_span()));
 }
 
 /// One cause, one message: where many ranges exclude each other, the first pair is told.
@@ -244,6 +257,7 @@ void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Pro
     for (const PlannedAxis& limit : plan.axes) {
       compare_driver(axis, limit, probe, remarks);
       compare_rest(axis, limit, probe, remarks);
+      if (&limit < &axis) compare_pushes(axis, limit, probe, remarks);
     }
     for (const PlannedSpeed& speed : plan.speeds) {
       compare_with_norm(axis, speed, remarks);

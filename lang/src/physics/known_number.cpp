@@ -3,6 +3,7 @@
 //   measured                    lies within
 //   group.axis.position         the ranges of positions on that axis, and the regions in force; in the
 //                               first task s0 +- v t, too
+//   a distance                  in the first task s0 +- v t, too
 //   group.axis.velocity         the ranges of velocities on it, and the speed of velocity drivers
 //   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
 //   speed(frame)                what `speed` and the ranges of the base's axes leave, and what velocity
@@ -265,8 +266,18 @@ const PlannedAxis* KnownNumbers::feature_axis(const ExpressionNode& node) const 
 }
 
 Known KnownNumbers::known_feature(const ExpressionNode& node) {
-  const PlannedAxis* axis = feature_axis(node);
-  return axis != nullptr ? known_position(*axis) : Known{};
+  if (const PlannedAxis* axis = feature_axis(node)) return known_position(*axis);
+  const std::optional<PlannedAxis> axis = plan_feature(context_, node.index);
+  const bool is_known = axis && is_first_ && axis->is_open() && axis->is_placed && !axis->is_set &&
+                        axis->move.body == 0 && std::isfinite(until_);
+  if (!is_known) return {};
+  const SpeedLimit most = most_speed(plan_, axis->move, probe_),
+                   driven = speed_of_drivers(plan_, axis->move, probe_);
+  const SpeedLimit& limit = driven.most < most.most ? driven : most;
+  const double from = probe_.position_at_start(*axis), way = limit.most * until_;
+  Known known{{from - way, from + way}, limit.path, limit.span};
+  known.time = until_;
+  return known;
 }
 
 /// The range of the quantity; nullopt where a `set` of the file may widen it.

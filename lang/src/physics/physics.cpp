@@ -84,6 +84,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   PlannedTask plan = asked.all.plans[index];
   ask_exits_of_task(context, index, plan, asked, probe, remarks);
   ask_reach(plan, probe, remarks);
+  ask_travel(plan, *context.robot, asked.scene, remarks);
   ask_steering(context, plan, asked.held_steerings, probe, remarks);
   ask_hopping(context, plan, asked.conditions, asked.all, probe, remarks);
   ask_square(plan, asked.held_steerings, asked.floor_friction, probe, remarks);

@@ -97,8 +97,7 @@ bool measure_axis(const CheckContext& context, const GroupText& group, const Axi
 
 /// A distance or an angle between two frames is the same in both directions. The frame on the robot becomes
 /// the moving one.
-bool measure_feature(const CheckContext& context, const GroupText& group, PlannedAxis& axis) {
-  const std::optional<int> index = context.symbols.find_feature(group.feature.text);
+bool measure_feature(const CheckContext& context, std::optional<int> index, PlannedAxis& axis) {
   if (!index || context.symbols.features[static_cast<std::size_t>(*index)].is_bad) return false;
   const Feature& feature = context.symbols.features[static_cast<std::size_t>(*index)].feature;
   Place move = place_of(context, feature.first);
@@ -123,7 +122,7 @@ bool measure_feature(const CheckContext& context, const GroupText& group, Planne
       feature.kind == FeatureKind::direction && feature.direction == std::array<double, 6>{};        // E411
   const bool is_rigid = feature.kind != FeatureKind::direction && move.frame.body == in.frame.body;  // E412
   if (points_nowhere || is_rigid) return false;
-  axis.move_name = group.feature.text;
+  axis.move_name = feature.name;
   stand_between(axis, move, in);
   return true;
 }
@@ -135,7 +134,8 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
   // The part that could not be read may decide the answer, so the model is not asked.
   if (group.is_incomplete) return std::nullopt;
   const bool is_measured =
-      is_feature ? measure_feature(context, group, axis) : measure_axis(context, group, text, axis);
+      is_feature ? measure_feature(context, context.symbols.find_feature(group.feature.text), axis)
+                 : measure_axis(context, group, text, axis);
   if (!is_measured) return std::nullopt;
   axis.path = (in_always ? "always." : "") + group.name.text + (is_feature ? "" : "." + text.name.text);
   axis.text = &text;
@@ -323,6 +323,11 @@ double PlannedTask::speed_limit(const PlannedAxis& axis) const {
     if (speed.body == axis.move.body) most = std::min(most, speed.most);
   }
   return most;
+}
+
+std::optional<PlannedAxis> plan_feature(const CheckContext& context, int index) {
+  PlannedAxis axis;
+  return measure_feature(context, index, axis) ? std::optional(axis) : std::nullopt;
 }
 
 PlannedTask plan_always(const CheckContext& context) {

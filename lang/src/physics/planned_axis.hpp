@@ -109,6 +109,8 @@ struct Place {
 /// Where a frame is fixed: the parents stand before it in the table, so the chain ends.
 Place place_of(const CheckContext& context, int index);
 
+/// What the feature measures, without a statement; nullopt where it cannot be read.
+std::optional<PlannedAxis> plan_feature(const CheckContext& context, int index);
 /// The readable axes of the task. An axis with an error has its diagnostic and is left out.
 PlannedTask plan_task(const CheckContext& context, const TaskText& task);
 /// The readable axes of `always`, which are in force in every task.

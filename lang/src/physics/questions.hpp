@@ -56,6 +56,9 @@ const Path* path_of(const CheckContext& context, const PlannedAxis& axis);
 
 /// E404 for an axis alone. Takes it out of the plan: what cannot be driven is not asked about again.
 void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W416: places that joints cannot come to.
+void ask_travel(const PlannedTask& plan, const Robot& robot, const std::optional<Scene>& scene,
+                Remarks& remarks);
 /// E406, W407, and E404 for axes that the wheels tie together.
 void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W614: a base of two freedoms that is to stand still along an axis of the world, and to move along another.

@@ -28,6 +28,7 @@ double side_of(const CheckContext& context, const PlannedTask& plan, const Plann
                const Probe& probe) {
   constexpr double there = 1e-3;                                  // [m] or [rad]
   constexpr double other_way = 175.0 / 180.0 * std::numbers::pi;  // beyond it either way is as short [rad]
+  if (axis.is_yield) return 0.0;
   if (axis.driver != solver::Quantity::position) return *axis.target < 0.0 ? -1.0 : 1.0;
   const bool starts_here = plan.task->name.text == context.file.start.text && axis.is_placed &&
                            !axis.is_set && !axis.is_on_path && (axis.in_world || axis.move.body != 0);
@@ -118,9 +119,10 @@ std::optional<Forbidding> forbidding(const CheckContext& context, const PlannedT
 
 void ask_still(const CheckContext& context, PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (PlannedAxis& axis : plan.axes) {
-    const bool is_asked = axis.driver && axis.target && axis.text != nullptr &&
-                          (*axis.target != 0.0 || axis.driver == solver::Quantity::position) &&
-                          axis.is_placed && !remarks.any_at(axis.driver_span());
+    const bool moves = axis.is_yield || (axis.driver && axis.target &&
+                                         (*axis.target != 0.0 || axis.driver == solver::Quantity::position));
+    const bool is_asked =
+        moves && axis.text != nullptr && axis.is_placed && !remarks.any_at(axis.driver_span());
     const std::optional<Forbidding> found =
         is_asked ? forbidding(context, plan, axis, probe) : std::optional<Forbidding>();
     if (!found) continue;
