@@ -71,15 +71,15 @@ int put_comparison(lang::Condition& condition, std::mt19937& random) {
   constant.number = 0.5 * std::uniform_int_distribution(0, 2)(random);
   comparison.left = put(condition, distance);
   comparison.right = put(condition, constant);
-  comparison.op = static_cast<Op>(std::uniform_int_distribution(
-      static_cast<int>(Op::less), static_cast<int>(Op::greater_equal))(random));
+  comparison.op = static_cast<Op>(
+      std::uniform_int_distribution(static_cast<int>(Op::less), static_cast<int>(Op::greater_equal))(random));
   return put(condition, comparison);
 }
 
 /// The index of the root of a tree of `and`, `or` and `not`.
 int grow(lang::Condition& condition, int depth, std::mt19937& random) {
-  const int kind = depth == 0 ? std::uniform_int_distribution(0, 1)(random)
-                              : std::uniform_int_distribution(0, 7)(random);
+  const int kind =
+      depth == 0 ? std::uniform_int_distribution(0, 1)(random) : std::uniform_int_distribution(0, 7)(random);
   if (kind == 0) return put_signal(condition, random);
   if (kind == 1) return put_comparison(condition, random);
   ExpressionNode node;
