@@ -86,11 +86,23 @@ void add_arm(const Robot& robot, BaseFit& fit) {
   }
 }
 
+/// Swivels stand across as the base is pushed from aside, and turn over: the mass that they resist with then.
+solver::BaseAnalysis with_swivels_across(const Robot& robot) {
+  solver::State state = start_state(robot);
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const int swivel = robot.model.bodies()[static_cast<std::size_t>(wheel.body)].parent - 1;
+    if (swivel >= 0 && !robot.model.joint(swivel).actuated) state.q(swivel) = 0.5 * std::numbers::pi;
+  }
+  return solver::analyse_base(robot.model, state);
+}
+
 void add_masses(const Robot& robot, BaseFit& fit) {
   const solver::BaseAnalysis analysis = solver::analyse_base(robot.model, start_state(robot));
   const auto known = [](double value) { return std::isfinite(value) ? value : 0.0; };
   const bool goes_along_y = std::abs(std::sin(fit.heading)) > 0.7;
-  fit.effective_mass = known(analysis.axes[goes_along_y ? y_axis : x_axis].effective_mass);
+  const auto ahead = goes_along_y ? y_axis : x_axis;
+  fit.effective_mass = std::max(known(analysis.axes[ahead].effective_mass),
+                                known(with_swivels_across(robot).axes[ahead].effective_mass));
   fit.effective_inertia = known(analysis.axes[yaw_axis].effective_mass);
   const std::optional<Footing> footing = footing_of(robot);
   if (footing) fit.centre = Eigen::Rotation2Dd(-fit.heading) * footing->centre.head<2>();
