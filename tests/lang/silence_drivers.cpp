@@ -21,6 +21,17 @@ std::string led_away(Dice& d, bool fault) {
                    "", "{after: 5 s, goto: done}"));
 }
 
+/// The same by a range on the base's own axis, as its heading is kept.
+std::string led_away_by_the_base(Dice& d, bool fault) {
+  const double way = d.number(0.3, 2.0), most = d.number(0.1, 0.4);
+  const std::string body = in_world("time_constant: 2 s, position: " + q(way, "m"));
+  return file(task("a",
+                   body.substr(0, body.size() - 1) +
+                       ", calm: {move: base_link, in: base_link, x: {velocity: " +
+                       range(fault ? -most : 0.0, fault ? 0.0 : most, "m/s") + "}}}",
+                   "", "{after: 5 s, goto: done}"));
+}
+
 /// A base that arrives is to stand.
 std::string never_stands(Dice& d, bool fault) {
   const double least = d.number(0.02, 0.1) * (fault ? 1.0 : -1.0);
@@ -177,6 +188,7 @@ std::string beyond_the_reach(Dice& d, bool fault) {
 std::vector<Kind> kinds_of_drivers() {
   return {
       {"led_away", {"W610"}, led_away},
+      {"led_away_by_the_base", {"W610"}, led_away_by_the_base},
       {"never_stands", {"W416"}, never_stands},
       {"target_beyond_a_region", {"W416"}, target_beyond_a_region},
       {"taken_above", {"W407"}, taken_above},

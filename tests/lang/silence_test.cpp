@@ -283,7 +283,7 @@ class Silence : public testing::Test {
     return all;
   }
 
-  static int count() { return zwang::test::is_long() ? 300 : 82; }
+  static int count() { return zwang::test::is_long() ? 300 : 84; }
 
   test::Folder folder_;
 };

@@ -72,13 +72,37 @@ std::optional<Forbidding> by_acceleration(const PlannedTask& plan, const Planned
   return forbids ? std::optional(by(*limit.from, axis, solver::Quantity::acceleration)) : std::nullopt;
 }
 
+/// Whether a row keeps the base's heading as it is at the start.
+bool keeps_heading(const PlannedTask& plan, const Probe& probe) {
+  return std::any_of(plan.axes.begin(), plan.axes.end(), [&](const PlannedAxis& axis) {
+    if (!axis.turns() || axis.is_feature() || axis.move.body != 0 || axis.is_soft || axis.is_spring)
+      return false;
+    if (axis.stands_still()) return true;
+    const bool is_place = axis.driver == solver::Quantity::position && axis.is_placed && !axis.is_set;
+    return is_place && (!axis.target || std::abs(*axis.target - probe.position_at_start(axis)) < 1e-3);
+  });
+}
+
+/// As `Probe::alignment`. In the task that starts the run, with the heading that it keeps, axes of the world
+/// and of the base may be one, too.
+int aligned(const PlannedTask& plan, const PlannedAxis& axis, const PlannedAxis& other, double side,
+            Probe& probe) {
+  const int always = probe.alignment(axis, other);
+  const bool may_be = always == 0 && side != 0.0 && axis.driver == solver::Quantity::position &&
+                      axis.move.body == 0 && other.move.body == 0 && !axis.turns() && !other.turns() &&
+                      !axis.is_feature() && !other.is_feature() && keeps_heading(plan, probe);
+  if (!may_be) return always;
+  const double cosine = probe.direction(axis).dot(probe.direction(other));
+  return cosine > 1.0 - 1e-9 ? 1 : cosine < -1.0 + 1e-9 ? -1 : 0;
+}
+
 /// W416 tells of a velocity driver.
 std::optional<Forbidding> by_velocity(const PlannedTask& plan, const PlannedAxis& axis, double side,
                                       Probe& probe) {
   if (axis.driver == solver::Quantity::velocity || axis.is_spring) return std::nullopt;
   for (const PlannedAxis& other : plan.axes) {
     const auto& range = other[solver::Quantity::velocity];
-    const int along = !range ? 0 : &other == &axis ? 1 : probe.alignment(axis, other);
+    const int along = !range ? 0 : &other == &axis ? 1 : aligned(plan, axis, other, side, probe);
     if (along == 0) continue;
     const solver::Range seen = along > 0 ? *range : solver::Range{-range->high, -range->low};
     if (most_of(seen, side) < least_velocity) return by(other, axis, solver::Quantity::velocity);
