@@ -1,4 +1,5 @@
 // Masses and inertias that URDFs have by habit, and what the drafted robot file makes of them.
+#include <algorithm>
 #include <regex>
 
 #include "draft_of_habits.hpp"
@@ -130,6 +131,30 @@ TEST_F(DraftOfHabits, gives_a_swivel_with_too_much_inertia_a_ball) {
       << said;
   EXPECT_EQ(this->draft(folder_.write("fork.urdf", on_fork("0.056")))->text.find("inertias"),
             std::string::npos);
+}
+
+// Simulators are calmed by friction that nobody measured: it is told and not taken.
+TEST_F(DraftOfHabits, tells_the_friction_of_the_urdf) {
+  const std::string urdf =
+      std::regex_replace(two_wheels_and(""), std::regex("<limit effort='8' velocity='9'/>"),
+                         "$&<dynamics damping='0.1' friction='0.2'/>");
+  const auto draft = this->draft(folder_.write("rubs.urdf", urdf));
+  ASSERT_TRUE(draft);
+  const std::string note =
+      "# friction:\n"
+      "#   left_wheel_joint: {coulomb: 0.2 N m, viscous: 0.1 N m s/rad}\n"
+      "#   right_wheel_joint: {coulomb: 0.2 N m, viscous: 0.1 N m s/rad}\n";
+  ASSERT_NE(draft->text.find(note), std::string::npos) << draft->text;
+  EXPECT_EQ(
+      std::count_if(draft->missing.begin(), draft->missing.end(),
+                    [](const std::string& line) { return line.find("<dynamics>") != std::string::npos; }),
+      1);
+  // Without the comment's marks it is an entry of the file.
+  const std::string taken = std::regex_replace(note, std::regex("# ?"), "");
+  EXPECT_EQ(said_of(test::replaced(draft->text, note, taken)).find("error"), std::string::npos)
+      << said_of(test::replaced(draft->text, note, taken));
+  const auto still = this->draft(folder_.write("still.urdf", two_wheels_and("")));
+  EXPECT_EQ(still->text.find("<dynamics>"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
@@ -103,6 +104,33 @@ std::string in_millimetres(double metres) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g mm", metres * 1e3);
   return text;
+}
+
+std::string friction_note(const Urdf& urdf, const FoundWheels& found, const std::vector<std::string>& held) {
+  std::vector<std::string> joints;
+  for (const DraftWheel& wheel : found.wheels) joints.push_back(wheel.joint);
+  joints.insert(joints.end(), found.steering.begin(), found.steering.end());
+  std::copy_if(
+      found.others.begin(), found.others.end(), std::back_inserter(joints),
+      [&](const std::string& name) { return std::find(held.begin(), held.end(), name) == held.end(); });
+  std::string text;
+  for (const std::string& name : joints) {
+    const UrdfJoint& joint = *urdf.find_joint(name);
+    if (!(joint.coulomb > 0.0 || joint.viscous > 0.0)) continue;
+    const bool slides = joint.joint.type == solver::JointType::prismatic;
+    const auto part = [&](const char* key, double value, const char* unit) {
+      return value > 0.0 ? key + (": " + wording::figure(value, unit)) : std::string();
+    };
+    const std::string coulomb = part("coulomb", joint.coulomb, slides ? "N" : "N m");
+    const std::string viscous = part("viscous", joint.viscous, slides ? "N s/m" : "N m s/rad");
+    text +=
+        "#   " + name + ": {" + coulomb + (coulomb.empty() || viscous.empty() ? "" : ", ") + viscous + "}\n";
+  }
+  if (text.empty()) return text;
+  return "\n# The URDF's <dynamics> are not taken: many are made up, to calm a simulator. If these were "
+         "measured, take "
+         "them:\n# friction:\n" +
+         text;
 }
 
 std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& found, bool has_none) {

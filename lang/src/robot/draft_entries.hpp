@@ -25,6 +25,15 @@ std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std
 /// [rad] Of steered swivels whose wheels do not roll ahead as they are drawn: where they do.
 std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels& found);
 
+inline constexpr const char* effort_note =
+    "\n# effort: the largest torque on the joint's side, as `2 N m`; without it the URDF's. Add gear and\n# "
+    "rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's own "
+    "inertia.\n";
+
+/// The friction of the URDF's <dynamics>, as a comment: many URDFs have numbers that calm a simulator. Empty
+/// where no joint with a motor has any. `held`: joints of `fixed`.
+std::string friction_note(const Urdf& urdf, const FoundWheels& found, const std::vector<std::string>& held);
+
 /// As precise as a drawing.
 std::string in_millimetres(double metres);
 

@@ -199,6 +199,8 @@ class Drafter {
     if (urdf_.mass() > 0.0 && push() > floor_holds(urdf_.mass()))
       lines.push_back("the wheels' own torques: the URDF's press with " + wording::figure(push(), "N") +
                       ", and no floor holds that (W872); give `each_wheel: {effort: ..}`");
+    if (!friction_note(urdf_, found_, held_).empty())
+      lines.push_back("friction that was measured: the URDF's <dynamics> stand in a comment of the draft");
     lines.push_back("gears and rotor inertias: often larger than the wheels' own");
     lines.push_back(found_.outline.empty() ? "`footprint`: the base has no simple collision shape"
                                            : "whether `stop` and `footprint`, which are proposed, are right");
@@ -313,12 +315,7 @@ class Drafter {
       text +=
           "\n# They stand on the ground and hold nothing.\nsupports: " + in_brackets(found_.supports) + "\n";
     text += each_joint(filling);
-    text +=
-        "\n# effort: the largest torque on the joint's side, as `2 N m`; without it the URDF's. Add gear "
-        "and\n"
-        "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
-        "own inertia.\n";
-    text += actuated(filling);
+    text += effort_note + actuated(filling) + friction_note(urdf_, found_, held_);
     text += inertias_entry(bodies_, found_.base, filling.base_mass, filling.mass) +
             posture_entry(urdf_, folded_) + stop_entry(urdf_.mass(), deceleration_, filling.force) +
             frames_.footprint(filling.footprint) + frames_.frames(filling.back);

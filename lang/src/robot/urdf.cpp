@@ -89,6 +89,10 @@ UrdfJoint to_joint(const urdf::Joint& joint) {
   result.joint.type = to_type(joint.type);
   if (result.joint.type == solver::JointType::fixed) return result;
   result.joint.axis = solver::Vector3(joint.axis.x, joint.axis.y, joint.axis.z).normalized();
+  if (joint.dynamics) {
+    result.coulomb = joint.dynamics->friction;
+    result.viscous = joint.dynamics->damping;
+  }
   if (joint.limits) {
     // 0 is how URDFs say that they do not know.
     if (joint.limits->effort > 0.0) result.joint.max_effort = joint.limits->effort;

@@ -45,6 +45,7 @@ struct UrdfJoint {
   bool has_axis = false;  ///< false: the file has no <axis>, which means 1 0 0
   solver::Vector3 drawn_axis = solver::Vector3::UnitX();  ///< of the file, of joints that are fixed, too
   bool is_turned = false;                                 ///< a robot file lets it turn without end
+  double coulomb = 0.0, viscous = 0.0;  ///< [N m], [N m s/rad] or [N], [N s/m] of <dynamics>
   bool has_transmission = false;  ///< a <transmission> or <ros2_control> names it, with a motor
   Span span;
 };

@@ -81,6 +81,7 @@ class UrdfExcerpt {
       const std::size_t* const axis = child(joint, "axis");
       if (axis != nullptr && elements_[*axis].find("xyz") != nullptr) write_first(joint, "axis", {"xyz"});
       write_limit(joint);
+      write_dynamics(joint);
     }
     close("joint");
   }
@@ -95,6 +96,17 @@ class UrdfExcerpt {
       if (elements_[*limit].find(name) == nullptr) text_ += std::string(" ") + name + "=\"0\"";
     }
     text_ += "/>";
+  }
+
+  /// Of numbers that can be read, or not at all: no friction is taken from them.
+  void write_dynamics(std::size_t joint) {
+    const std::size_t* const dynamics = child(joint, "dynamics");
+    if (dynamics == nullptr || !has_numbers(*dynamics, "damping", 1) ||
+        !has_numbers(*dynamics, "friction", 1))
+      return;
+    const XmlElement& element = elements_[*dynamics];
+    if (element.find("damping") != nullptr || element.find("friction") != nullptr)
+      write_first(joint, "dynamics", {"damping", "friction"});
   }
 
   const std::size_t* child(std::size_t parent, std::string_view name) const {
