@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "json_parts.hpp"
 #include "output.hpp"
 
 namespace zwang::cli {

@@ -1,10 +1,10 @@
 /// The parts of a report that hang on the runner alone, as JSON: a log of `zwang drive` has them, too.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "json_parts.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/runtime/runner.hpp"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "../cli/json_parts.hpp"
 #include "../cli/run_json.hpp"
 #include "drive_loop.hpp"
 #include "observe.hpp"
