@@ -10,7 +10,7 @@
 
 namespace zwang::lang {
 
-/// What tells the dimension of a value beside its keys.
+/// The text and the names tell the dimension of a value where its keys do not.
 struct UnitSources {
   FileKind kind = FileKind::task;
   std::string_view
