@@ -148,12 +148,6 @@ std::string count(std::size_t n, std::string_view thing) {
   return std::to_string(n) + " " + std::string(thing) + (n == 1 ? "" : "s");
 }
 
-std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span) {
-  if (!span.exists()) return "";
-  const std::filesystem::path path = diagnostics.source(span.source).path;
-  return path.filename().string() + ":" + std::to_string(span.begin.line);
-}
-
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::symlink_status(path_, error);

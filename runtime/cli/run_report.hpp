@@ -64,9 +64,6 @@ struct RunReport {
   std::vector<FaultReport> faults;
 };
 
-/// The name of a task; of `done` and `failed`, too.
-std::string task_name(const runtime::Scheduler& scheduler, int task);
-
 /// The row that is at its limit, in a line without its end.
 std::string live_line(const runtime::Runner& runner, double time);
 /// A transition and its reason, likewise.

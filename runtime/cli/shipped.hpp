@@ -18,9 +18,9 @@ std::optional<std::filesystem::path> optional_part(const std::string& name);
 /// there.
 std::optional<std::filesystem::path> shipped_folder();
 
-/// `wall_align` is the shipped task of that name where no file is called so; in the folder `scenarios` of the
-/// shipped files it is a scenario. Anything else stays as it is. Throws Impossible, with the name that was
-/// meant, when a bare name is neither.
+/// `wall_align` is the shipped task of that name where no file is called so. In the folder `scenarios` of the
+/// shipped files it is a scenario, in `robots` `kelo_base` is a robot. Anything else stays as it is. Throws
+/// Impossible, with the name that was meant, when a bare name is neither.
 std::string file_or_shipped(const std::string& file, const std::string& folder = ".");
 
 }  // namespace zwang::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "output.hpp"
+#include "run_json.hpp"
 
 namespace zwang::cli {
 

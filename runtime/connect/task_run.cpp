@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "../cli/run_json.hpp"
 #include "drive_loop.hpp"
 #include "observe.hpp"
 #include "zwang/runtime/log_channels.hpp"
@@ -81,6 +82,21 @@ std::unique_ptr<runtime::Recorder> recorder_for(const LogOrder& log,
   return recorder;
 }
 
+/// As at the end of a log of `zwang run`, without the truth that only a simulation has.
+std::map<std::string, std::string> conclusion_of(const runtime::Runner& runner, const DriveReport& report,
+                                                 const lang::Diagnostics& diagnostics) {
+  const std::string outcome = runtime::to_string(runner.state()), verdict = verdict_of(runner, report);
+  nlohmann::ordered_json whole = {{"outcome", outcome},
+                                  {"verdict", verdict},
+                                  {"elapsed", report.elapsed},
+                                  {"transitions", cli::json_transitions(runner, diagnostics)},
+                                  {"events", cli::json_events(runner)},
+                                  {"limits", cli::json_limits(runner, diagnostics)}};
+  if (const std::string because = runner.because(); !because.empty()) whole["because"] = because;
+  if (const auto why = runner.why()) whole["why"] = cli::json_of(*why);
+  return {{"outcome", outcome}, {"verdict", verdict}, {"report", cli::text_of(whole)}};
+}
+
 void tell_incomplete(const runtime::RecorderStatus& log) {
   if (log.complete()) return;
   const std::string why =
@@ -141,8 +157,7 @@ RunTaskResult run_task(const Robot& robot, const lang::Program& program, const l
   DriveReport report;
   drive(robot.connection, program, robot.inbox, robot.outbox, robot.control, runner, report);
   if (recorder) {
-    recorder->conclude(
-        {{"outcome", runtime::to_string(runner.state())}, {"verdict", verdict_of(runner, report)}});
+    recorder->conclude(conclusion_of(runner, report, diagnostics));
     recorder->close();
   }
   RunTaskResult result{outcome_of(runner, robot.control), reason_of(runner)};

@@ -5,6 +5,7 @@
 
 #include "features.hpp"
 #include "publish.hpp"
+#include "zwang/lang/completion.hpp"
 #include "zwang/lang/format.hpp"
 
 namespace zwang::lsp {
@@ -106,7 +107,7 @@ class Server::Session {
         {"textDocument/codeAction", &Session::code_actions},
         {"textDocument/formatting", &Session::format},
         {"textDocument/hover", &Session::ask<hover>},
-        {"textDocument/completion", &Session::ask<completion>},
+        {"textDocument/completion", &Session::complete},
         {"textDocument/definition", &Session::ask<definition>},
         {"textDocument/references", &Session::ask<references>},
         {"textDocument/documentSymbol", &Session::ask<symbols>},
@@ -208,6 +209,17 @@ class Server::Session {
   Json ask(const Json& parameters) {
     const auto asked = asked_in(parameters);
     return asked ? feature(*asked) : Json(nullptr);
+  }
+
+  /// A file that is about to be begun may become a task file.
+  Json complete(const Json& parameters) {
+    if (const auto asked = asked_in(parameters)) return completion(*asked);
+    const auto file = file_in(parameters);
+    const Document* document = file ? workspace_.document(*file) : nullptr;
+    const bool is_yaml = file && (file->extension() == ".yaml" || file->extension() == ".yml");
+    if (document == nullptr || !is_yaml || !lang::begins_a_file(document->text)) return nullptr;
+    return completion({workspace_, *file, *document, lang::FileKind::task,
+                       position_in(parameters).value_or(EditorPosition{})});
   }
 
   Json rename_all(const Json& parameters) {

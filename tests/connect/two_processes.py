@@ -105,6 +105,25 @@ def a_log_tells_how_it_ended(program, root, folder):
     expect(1.9 < number(r"from ([0-9.]+) s *task `done`", said) < 2.2, "times are not those of the run", said)
 
 
+def a_page_has_the_margins(program, root, folder):
+    """As that of `zwang run` has them: of the same rows, at the same lines."""
+    task, robot = root / "specs/laws/speed_limit.yaml", ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    run = subprocess.run([program, "run", task, *robot, "--log", folder / "run", "--format", "json"], capture_output=True, text=True, check=True)
+    of_run = {one["row"]: one["where"] for one in json.loads(run.stdout)["limits"]}
+    log, page = folder / "log.mcap", folder / "page.html"
+    code, drive, simulate = Pair(program, folder, task, TWIST, robot, 32, driven=["--log", log]).end()
+    expect(code == 0, "not done", drive, simulate)
+    subprocess.run([program, "report", log, "-o", page], check=True, capture_output=True)
+    _, found, rest = page.read_text(encoding="utf-8").partition('"limits":[')
+    expect(found, "no margins on the page", drive, simulate)
+    limits = {one["row"]: one for one in json.JSONDecoder().raw_decode("[" + rest)[0]}
+    of_drive = {row: one["where"] for row, one in limits.items()}
+    expect(of_drive == of_run, "other rows", str(of_drive), str(of_run))
+    # At 0.5 m/s^2 for 2 s into the limit of 0.4 m/s.
+    worst = limits["go.ahead.x.velocity"]
+    expect(worst["limit"] == 0.4 and abs(worst["worst"] - 0.4) < 0.02, "another limit", str(worst))
+
+
 def this_machine_alone_is_enough(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 7, ros2="reach: machine")
@@ -128,7 +147,8 @@ def main(program, root, clients, *chosen):
                 return False
 
     # Mostly they wait: two at a time take a tenth of a processor.
-    cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, a_log_tells_how_it_ended, this_machine_alone_is_enough,
+    cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, a_log_tells_how_it_ended, a_page_has_the_margins,
+             this_machine_alone_is_enough,
              *stop_cases.CASES, *call_cases.CASES, *cyclone_cases.CASES,
              *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
              *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))

@@ -1,76 +1,22 @@
 // The answers to an editor about a place in a text.
-#include <gtest/gtest.h>
+#include "features.hpp"
 
-#include <fstream>
-#include <set>
 #include <sstream>
-
-#include "../temporary_folder.hpp"
-#include "editor.hpp"
 
 namespace zwang::lsp {
 namespace {
 
 namespace fs = std::filesystem;
 using test::Editor;
+using test::Features;
 using test::json;
+using test::labels;
 using test::replaced;
 using test::slurp;
-
-const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
 
 bool contains(const json& answer, const std::string& words) {
   return answer.dump().find(words) != std::string::npos;
 }
-
-std::set<std::string> labels(const json& completion) {
-  std::set<std::string> labels;
-  for (const json& item : completion["items"]) labels.insert(item["label"]);
-  return labels;
-}
-
-/// A copy of the shipped files, which a rename may change.
-class Features : public ::testing::Test {
- protected:
-  Features() {
-    const fs::path copy = folder_.path() / "specs";
-    fs::create_directories(copy / "scenarios");
-    fs::create_directories(copy / "studies");
-    for (const char* part :
-         {"robots", "scenes", "docking.yaml", "hospital.yaml", "wall_align.yaml", "scenarios/hospital.yaml",
-          "scenarios/wall_align.yaml", "studies/wall_align.yaml"})
-      fs::copy(specs / part, copy / part, fs::copy_options::recursive);
-    std::ofstream(copy / ".zwang-root");
-  }
-
-  fs::path open(const std::string& name) {
-    const fs::path path = fs::canonical(folder_.path() / "specs" / name);
-    editor_.open(path, slurp(path));
-    return path;
-  }
-  /// The proposals where `written` stands in the place of `from`, with the cursor behind it.
-  std::set<std::string> proposed(const fs::path& path, const std::string& from, const std::string& written) {
-    const std::string text = replaced(slurp(path), from, written);
-    editor_.change(path, text);
-    const std::size_t at = slurp(path).find(from) + written.size();
-    return labels(editor_.ask("textDocument/completion", {{"textDocument", {{"uri", uri_of(path)}}},
-                                                          {"position", Editor::position(text, at)}}));
-  }
-  json rename(const fs::path& path, const std::string& words, std::size_t into, const std::string& name) {
-    return editor_.at("textDocument/rename", path, words, into, {{"newName", name}});
-  }
-  /// Does the edits of a rename on the disk.
-  void apply(const json& edit) {
-    for (const auto& [uri, edits] : edit["changes"].items()) {
-      const fs::path path = path_of(uri).value();
-      const std::string text = Editor::edited(slurp(path), edits);
-      std::ofstream(path, std::ios::binary) << text;
-    }
-  }
-
-  const zwang::test::TemporaryFolder folder_;
-  Editor editor_;
-};
 
 TEST_F(Features, HoverTellsWhatARowDoesOnThisRobot) {
   const fs::path task = open("wall_align.yaml");
@@ -93,81 +39,7 @@ TEST_F(Features, HoverTellsSiUnitsAndKeys) {
   EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "$target", 3), "argument `target`"));
 }
 
-TEST_F(Features, CompletionKnowsKeysNamesAndUnits) {
-  const fs::path task = open("hospital.yaml");
-  EXPECT_TRUE(proposed(task, "margin: 10 cm", "ma").contains("margin"));
-  EXPECT_FALSE(proposed(task, "margin: 10 cm", "ma").contains("goto"));
-  const auto frames = proposed(task, "in: $target", "in: ");
-  for (const char* frame : {"pharmacy", "ward", "base_link", "world"})
-    EXPECT_TRUE(frames.contains(frame)) << frame;
-  EXPECT_TRUE(proposed(task, "inside: corridor", "inside: ").contains("corridor"));
-  EXPECT_TRUE(proposed(task, "{use: drive_to", "{use: ").contains("drive_to"));
-  const auto ends = proposed(task, "goto: pause}", "goto: p");
-  for (const char* end : {"pause", "load", "done", "failed", "back"}) EXPECT_TRUE(ends.contains(end)) << end;
-  const auto given = proposed(task, "velocity: [0 m/s, $speed]", "velocity: [0 m/s, $s");
-  for (const char* name : {"speed", "soft", "patience"}) EXPECT_TRUE(given.contains(name)) << name;
-  const auto condition = proposed(task, "when: loaded", "when: l");
-  for (const char* name : {"loaded", "stand", "elapsed", "moved"})
-    EXPECT_TRUE(condition.contains(name)) << name;
-  EXPECT_TRUE(proposed(task, "when: stop_key", "when: estimated.").contains("force"));
-  EXPECT_EQ(proposed(task, "when: stop_key", "when: estimated.force."),
-            (std::set<std::string>{"x", "y", "z", "rx", "ry", "rz"}));
-  EXPECT_EQ(proposed(task, "x:  {velocity: 0 m/s, force: +-$soft}", "x:  {velocity: 0 "),
-            (std::set<std::string>{"m/s", "cm/s", "mm/s"}));
-  EXPECT_TRUE(proposed(task, "rz: {velocity: 0 rad/s", "rz: {velocity: 0 r").contains("deg/s"));
-}
-
-TEST_F(Features, CompletionInAConditionKnowsWhatIsCompared) {
-  const fs::path task = open("wall_align.yaml");
-  const std::set<std::string> speeds{"m/s", "cm/s", "mm/s"}, lengths{"m", "cm", "mm", "um", "km"};
-  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: elapsed > 2 "),
-            (std::set<std::string>{"s", "ms", "us", "min", "h"}));
-  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: elapsed > 2 s and moved(base) > 2 "), lengths);
-  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: contact.x.velocity >= -2 "), speeds);
-  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: abs(contact.x.velocity) < 2 "), speeds);
-  EXPECT_EQ(proposed(task, "when: elapsed > 2 s", "when: abs(estimated.force.rz) < 2 "),
-            (std::set<std::string>{"N m"}));
-}
-
-TEST_F(Features, CompletionKnowsTheRobotOfATaskThatWasNeverWhole) {
-  const fs::path path = fs::canonical(folder_.path() / "specs") / "new.yaml";
-  const std::string text =
-      "zwang: 2\nrobot: robots/mecanum_base.yaml  # mine\ntasks:\n  go:\n    constraints:\n"
-      "      a: {move: ";
-  editor_.open(path, text);
-  const auto frames =
-      labels(editor_.ask("textDocument/completion", {{"textDocument", {{"uri", uri_of(path)}}},
-                                                     {"position", Editor::position(text, text.size())}}));
-  for (const char* frame : {"base_link", "world", "footprint"}) EXPECT_TRUE(frames.contains(frame)) << frame;
-}
-
-TEST_F(Features, CompletionKnowsFilesTypesAndWhatIsSet) {
-  const fs::path task = open("wall_align.yaml");
-  const auto robots = proposed(task, "robot: robots/mecanum_base.yaml", "robot: robots/mec");
-  EXPECT_TRUE(robots.contains("robots/mecanum_base.yaml"));
-  EXPECT_TRUE(robots.contains("robots/feels/mecanum_effort_50_hz.yaml"));
-  EXPECT_FALSE(robots.contains("scenes/wall.yaml"));
-  EXPECT_TRUE(proposed(task, "scene: scenes/wall.yaml", "scene: ").contains("scenes/wall.yaml"));
-  const auto keys = proposed(task, "set: {frames.wall: base}", "set: {fra");
-  EXPECT_EQ(keys, (std::set<std::string>{"frames.wall", "params.push", "params.timeout", "params.still"}));
-  EXPECT_TRUE(proposed(task, "set: {frames.wall: base}", "set: {frames.wall: ").contains("base_link"));
-  const fs::path scenario = open("scenarios/wall_align.yaml");
-  EXPECT_TRUE(proposed(scenario, "task: ../wall_align.yaml", "task: ").contains("../hospital.yaml"));
-  const std::string connection = "zwang_connection: 1\nsignals:\n  bump: {topic: /bump, type: std_msgs/Bo";
-  const fs::path path = scenario.parent_path().parent_path() / "connection.yaml";
-  editor_.open(path, connection);
-  const json answer =
-      editor_.ask("textDocument/completion", {{"textDocument", {{"uri", uri_of(path)}}},
-                                              {"position", Editor::position(connection, connection.size())}});
-  EXPECT_TRUE(labels(answer).contains("std_msgs/Bool"));
-  // The whole type stands in the place of what is written of it.
-  for (const json& item : answer["items"]) {
-    if (item["label"] != "std_msgs/Bool") continue;
-    EXPECT_EQ(Editor::edited(connection, json::array({item["textEdit"]})),
-              "zwang_connection: 1\nsignals:\n  bump: {topic: /bump, type: std_msgs/Bool");
-  }
-}
-
+// By the rows and the conditions that use the parameter, not by the unit that it has.
 TEST_F(Features, HoverTellsWhatAQuantityIs) {
   const fs::path task = open("wall_align.yaml");
   EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "0.08 m/s", 6), "`0.08 m/s`: a velocity"));
@@ -244,22 +116,6 @@ TEST_F(Features, AnUnknownFunctionHasAChoiceOfEdits) {
 }
 
 /// A file that comes, changes its kind or goes is known at once.
-TEST_F(Features, CompletionOfFilesFollowsTheFolder) {
-  const fs::path task = open("wall_align.yaml");
-  const auto scenes = [&] { return proposed(task, "scene: scenes/wall.yaml", "scene: "); };
-  EXPECT_FALSE(scenes().contains("scenes/new.yaml"));
-  const fs::path added = task.parent_path() / "scenes/new.yaml";
-  std::ofstream(added) << "zwang_scene: 1\n";
-  EXPECT_TRUE(scenes().contains("scenes/new.yaml"));
-  std::ofstream(added) << "zwang_robot: 1\nurdf: a.urdf\n";
-  EXPECT_FALSE(scenes().contains("scenes/new.yaml"));
-  editor_.open(added, "zwang_scene: 1\n");
-  EXPECT_TRUE(scenes().contains("scenes/new.yaml"));
-  editor_.close(added);
-  fs::remove(added);
-  EXPECT_FALSE(scenes().contains("scenes/new.yaml"));
-}
-
 TEST_F(Features, ACompletionIsNoMistake) {
   // Each proposal for a `goto` leaves the file without an error, but for `back`.
   const fs::path task = open("hospital.yaml");

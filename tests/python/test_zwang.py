@@ -270,6 +270,9 @@ def test_a_connection_is_checked_against_a_task():
 def test_shipped_tasks_are_found_by_name(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert zwang.load("wall_align").path == str(WALL_ALIGN)
+    kelo = zwang.load("wall_align", robot="kelo_base", scene="wall_far")
+    assert kelo.robot == zwang.load("wall_align", robot=SPECS / "robots/kelo_base.yaml").robot
+    assert not [d for d in zwang.validate("wall_align", robot="kelo_base") if d.severity == "error"]
     with pytest.raises(zwang.Error):
         zwang.load("no_such_task")
 

@@ -37,6 +37,21 @@ TEST_F(Cli, AShippedConnectionIsFoundByItsName) {
   EXPECT_NE(misspelt.err.find("did you mean `mecanum_effort`"), std::string::npos) << misspelt.err;
 }
 
+TEST_F(Cli, ShippedRobotsAndScenesAreFoundByTheirNames) {
+  const Result named = zwang({"plan", "wall_align", "--robot", "kelo_base", "--scene", "wall_far"});
+  const Result whole = zwang({"plan", "wall_align", "--robot", specs + "robots/kelo_base.yaml", "--scene",
+                              specs + "scenes/wall_far.yaml"});
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_EQ(named.out, whole.out);
+  EXPECT_EQ(zwang({"robot", "inspect", "kelo_base"}).code, 0);
+  const Result robot = zwang({"validate", "wall_align", "--robot", "kelo_bas"});
+  EXPECT_EQ(robot.code, 2);
+  EXPECT_NE(robot.err.find("did you mean `kelo_base`"), std::string::npos) << robot.err;
+  const Result scene = zwang({"run", "wall_align", "--scene", "wall_fra"});
+  EXPECT_EQ(scene.code, 2);
+  EXPECT_NE(scene.err.find("did you mean `wall_far`"), std::string::npos) << scene.err;
+}
+
 // An arm that starts inside of a block: only the plant knows where its tip is. A scene that `validate`
 // accepts starts. A scene that `run` refuses is refused by `validate` in the same words.
 TEST_F(Cli, ValidateRefusesWhatThePlantRefuses) {

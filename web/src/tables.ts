@@ -61,7 +61,7 @@ export function warnings(run: Run, onLine: OnLine): HTMLElement | null {
 export function margins(run: Run, clock: Moments, onLine: OnLine, onCurve: (name: string) => void): HTMLElement {
   void clock;
   const limits = run.data.report?.limits;
-  if (!limits) return h('p', { class: 'note' }, 'The log has no margins at its end: the run was cut, or zwang drive or an older zwang wrote it.');
+  if (!limits) return h('p', { class: 'note' }, 'The log has no margins at its end: the run was cut, or an older zwang drove it.');
   const share = (limit: Limit): number => limit.margin / Math.max(Math.abs(limit.limit), 1e-9);
   const rows = [...limits].sort((a, b) => share(a) - share(b)).map((limit) => {
     const left = Math.min(1, Math.max(0, share(limit)));

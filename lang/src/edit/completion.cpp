@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "edit/name_walk.hpp"
 #include "edit/schema_walk.hpp"
 #include "edit/units_that_fit.hpp"
 #include "zwang/lang/condition_function.hpp"
@@ -25,21 +26,28 @@ std::string scope_of(const std::vector<std::string>& keys) {
 
 class Proposer {
  public:
-  Proposer(FileKind kind, const TextPlace& place, const KnownNames& known)
-      : kind_(kind), place_(place), known_(known), key_(place.keys.empty() ? "" : place.keys.back()) {
+  Proposer(FileKind kind, std::string_view text, const TextPlace& place, const KnownNames& known)
+      : kind_(kind),
+        text_(text),
+        place_(place),
+        known_(known),
+        key_(place.keys.empty() ? "" : place.keys.back()) {
     for (auto k = place.keys.rbegin(); key_ == "-" && k != place.keys.rend(); ++k) key_ = *k;
   }
 
   std::vector<Proposal> propose() {
     const SchemaPlace schema = schema_place(kind_, place_.keys);
     if (place_.is_key) {
+      add_first_keys();
       for (const SchemaKey& key : schema.keys) add(key.name, ProposalKind::key, key.about);
       add_arguments();
       add_what_is_set();
       return std::move(all_);
     }
     if (is_behind_number()) {
-      const auto units = is_condition() ? units_in_condition(before()) : units_that_fit(place_.keys);
+      const UnitSources sources{kind_, text_, known_.given};
+      const auto units =
+          is_condition() ? units_in_condition(before(), sources) : units_that_fit(place_.keys, sources);
       for (const std::string& unit : units) add(unit, ProposalKind::unit, "");
       return std::move(all_);
     }
@@ -97,6 +105,17 @@ class Proposer {
     if (!wanted || !known_.files) return;
     for (const KnownFile& file : known_.files()) {
       if (file.kind == *wanted) add(file.name, ProposalKind::file, "", true);
+    }
+  }
+
+  /// The first key tells what a file is: `zwang` a task file.
+  void add_first_keys() {
+    if (!begins_a_file(text_)) return;
+    add("zwang", ProposalKind::key, "task file");
+    for (const FileKind kind :
+         {FileKind::robot, FileKind::scene, FileKind::scenario, FileKind::connection, FileKind::study}) {
+      const std::string word = word_of(kind);
+      add("zwang_" + word, ProposalKind::key, word + " file");
     }
   }
 
@@ -219,6 +238,7 @@ class Proposer {
   }
 
   FileKind kind_;
+  std::string_view text_;
   const TextPlace& place_;
   const KnownNames& known_;
   std::string key_;
@@ -231,7 +251,22 @@ class Proposer {
 std::vector<Proposal> proposals(FileKind kind, std::string_view text, std::size_t offset,
                                 const KnownNames& known) {
   const TextPlace place = place_at(text, offset);
-  return Proposer(kind, place, known).propose();
+  return Proposer(kind, text, place, known).propose();
+}
+
+bool begins_a_file(std::string_view text) {
+  bool has_word = false;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == std::string_view::npos || line[first] == '#' || line == "---") continue;
+    if (has_word || !std::all_of(line.begin(), line.end(), is_word_part)) return false;
+    has_word = true;
+  }
+  return true;
 }
 
 std::string about_key(FileKind kind, const std::vector<std::string>& keys) {

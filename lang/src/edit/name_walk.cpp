@@ -4,6 +4,7 @@
 #include <array>
 
 #include "words/text.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
@@ -28,6 +29,23 @@ const Node& below(const Node& node, std::string_view key) {
 /// The first part of `hook.x`.
 std::size_t length_of_first(std::string_view text) {
   return std::min(text.find('.'), text.size());
+}
+
+/// As NamePlace::unit.
+std::optional<std::string> unit_given(NameKind kind, const Node& declared) {
+  if (kind == NameKind::parameter) {
+    const QuantityResult read =
+        parse_quantity(declared.is_mapping() ? below(declared, "value").text : declared.text);
+    return read.error == QuantityError::none ? std::optional(read.quantity.unit) : std::nullopt;
+  }
+  if (kind == NameKind::feature) {
+    if (declared.find("distance") != nullptr) return "m";
+    const bool is_angle = declared.find("angle") != nullptr || declared.find("bearing") != nullptr;
+    return is_angle ? std::optional<std::string>("rad") : std::nullopt;
+  }
+  const bool may_be_number = kind == NameKind::signal || kind == NameKind::output;
+  if (!may_be_number || below(declared, "type").text != "number") return std::nullopt;
+  return below(declared, "unit").text;
 }
 
 }  // namespace
@@ -174,7 +192,11 @@ void NameWalk::walk_declarations(const Node& root) {
        {"templates", NameKind::task_template},
        {"tasks", NameKind::task}}};
   for (const auto& [section, kind] : sections) {
-    for (const Entry& entry : below(root, section).entries) give(entry.key, kind);
+    for (const Entry& entry : below(root, section).entries) {
+      const std::size_t before = places_.size();
+      give(entry.key, kind);
+      if (places_.size() > before) places_.back().unit = unit_given(kind, entry.value);
+    }
   }
 }
 

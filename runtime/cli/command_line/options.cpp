@@ -2,6 +2,7 @@
 
 #include "argument_text.hpp"
 #include "command_line/command_line.hpp"
+#include "shipped.hpp"
 
 namespace zwang::cli {
 
@@ -28,7 +29,11 @@ void add_overrides(CLI::App& verb, TaskOverrides& overrides) {
   const auto texts = std::make_shared<std::vector<std::string>>();
   verb.add_option("-p,--param", *texts, "set a parameter: name=value, as push=30N; may be repeated")
       ->allow_extra_args(false);
-  verb.parse_complete_callback([texts, &overrides] { overrides.parameters = parameters(*texts); });
+  verb.parse_complete_callback([texts, &overrides] {
+    overrides.parameters = parameters(*texts);
+    if (overrides.robot) overrides.robot = file_or_shipped(*overrides.robot, "robots");
+    if (overrides.scene) overrides.scene = file_or_shipped(*overrides.scene, "scenes");
+  });
 }
 
 }  // namespace zwang::cli

@@ -3,6 +3,7 @@
 
 #include "command_line/command_line.hpp"
 #include "robot_identify.hpp"
+#include "shipped.hpp"
 
 namespace zwang::cli {
 
@@ -31,7 +32,10 @@ void add_robot(CLI::App& app, Chosen& chosen) {
   CLI::App* inspect = verb->add_subcommand("inspect", "What the robot is and can do");
   inspect->add_option("file", inspected->file, "a robot file, or a bare URDF")->required();
   add_format(*inspect, inspected->format);
-  inspect->callback([=, &chosen] { chosen = [=] { return robot_inspect(*inspected); }; });
+  inspect->callback([=, &chosen] {
+    inspected->file = file_or_shipped(inspected->file, "robots");
+    chosen = [=] { return robot_inspect(*inspected); };
+  });
   const auto begun = std::make_shared<RobotInitArguments>();
   CLI::App* init = verb->add_subcommand("init", "Write a robot file from a URDF, to be filled in");
   init->add_option("urdf", begun->urdf, "the URDF")->required();

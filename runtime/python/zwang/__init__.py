@@ -20,24 +20,27 @@ __all__ = ["Command", "Diagnostic", "Edit", "Error", "Limit", "Log", "Plant", "P
            "ScenePlant", "Sensed", "Solution", "Solver", "load", "read_log", "run", "sweep", "validate"]
 
 
-def _shipped(path):
-    """`wall_align` is the shipped task of that name, where no file is called so."""
+def _shipped(path, below="."):
+    """`wall_align` is the shipped task of that name, where no file is called so. Below `robots` it is a robot."""
+    if path is None:
+        return None
     given = pathlib.Path(path)
     if given.name != str(path) or given.suffix or given.exists():
         return path
     around = pathlib.Path(__file__).resolve().parents[4]  # of the installation, or of the source tree
     for folder in (around / "share" / "zwang" / "specs", around / "specs"):
-        if (folder / f"{path}.yaml").is_file():
-            return folder / f"{path}.yaml"
+        if (folder / below / f"{path}.yaml").is_file():
+            return folder / below / f"{path}.yaml"
     return path
 
 
-def load(path, **options):
-    return _zwang.load(_shipped(path), **options)
+def load(path, *, robot=None, scene=None, **options):
+    return _zwang.load(_shipped(path), robot=_shipped(robot, "robots"), scene=_shipped(scene, "scenes"), **options)
 
 
-def validate(path, *, task=None, **options):
-    return _zwang.validate(_shipped(path), task=None if task is None else _shipped(task), **options)
+def validate(path, *, task=None, robot=None, scene=None, **options):
+    return _zwang.validate(_shipped(path), task=_shipped(task), robot=_shipped(robot, "robots"),
+                           scene=_shipped(scene, "scenes"), **options)
 
 
 load.__doc__, validate.__doc__ = _zwang.load.__doc__, _zwang.validate.__doc__

@@ -51,6 +51,9 @@ struct KnownNames {
 ZWANG_EXPORT std::vector<Proposal> proposals(FileKind kind, std::string_view text, std::size_t offset,
                                              const KnownNames& known);
 
+/// Whether no key is written yet: comments alone, and at most the begin of one word.
+ZWANG_EXPORT bool begins_a_file(std::string_view text);
+
 /// The schema's description of a key or of its value; may be empty.
 ZWANG_EXPORT std::string about_key(FileKind kind, const std::vector<std::string>& keys);
 

@@ -41,6 +41,9 @@ struct ZWANG_EXPORT NamePlace {
   std::string scope;
   Span span;
   bool is_given = false;  ///< the name is given here, not meant
+  /// Of a parameter, a number signal, a number output or a feature that is given: its unit; empty: it has
+  /// none.
+  std::optional<std::string> unit{};
 
   bool may_be(NameKind kind) const;
 };
