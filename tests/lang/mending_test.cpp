@@ -86,6 +86,26 @@ TEST_F(MendingOf, AUnitOfAnotherDimensionIsNotOffered) {
   EXPECT_EQ(edit("c.yaml", std::string(box) + "0.5 meters, 0.6 m], at: [1 m, 0 m]}\n", "E203"), "0.5 m");
 }
 
+/// The help holds the whole value, and the file with it is good.
+TEST_F(MendingOf, NewtonMetresOfAForceBecomeNewtons) {
+  const std::string task =
+      "zwang: 1\nrobot: robots/mecanum_base.yaml\nstart: go\ntasks:\n  go:\n    constraints:\n"
+      "      press: {move: base, in: base, x: {force: 20 N, velocity: +-0.1 m/s}}\n"
+      "    timeout: {after: 9 s, goto: done}\n";
+  fs::copy(test::source_dir / "specs/robots", folder_.path() / "robots", fs::copy_options::recursive);
+  struct Case {
+    const char *wrong, *right;
+  };
+  for (const Case& one : {Case{"20 Nm", "20 N"}, {"20Nm", "20 N"}, {"-20 Nm", "-20 N"}}) {
+    EXPECT_EQ(edit("press.yaml", test::replaced(task, "20 N", one.wrong), "E203"), one.right) << one.wrong;
+    const Told wrong = told_about(folder_.path() / "press.yaml");
+    EXPECT_TRUE(wrong.all.all().front().help.find("`" + std::string(one.right) + "`") != std::string::npos)
+        << test::rendered(wrong.all);
+    const Told mended = told_about(folder_.write("press.yaml", test::replaced(task, "20 N", one.right)));
+    EXPECT_FALSE(mended.all.has_errors()) << test::rendered(mended.all);
+  }
+}
+
 TEST_F(MendingOf, AKeyThatTakesAnotherValueIsNotOffered) {
   const std::string rest = "0.5 m, 0.6 m], at: [1 m, 0 m], ";
   EXPECT_EQ(edit("a.yaml", std::string(box) + rest + "locked: 0.1}\n", "E101"), std::nullopt);

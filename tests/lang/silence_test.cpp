@@ -236,6 +236,31 @@ std::string before_it_is_entered(Dice& d, bool fault) {
               task("b", drive("velocity: 0 m/s"), "", "{after: 2 s, goto: done}"));
 }
 
+/// The side that is weaker than the dead band lies on either side.
+std::string weak_dead_band(Dice& d, bool fault) {
+  const double band = d.number(2.0, 10.0), held = band * (fault ? d.number(0.2, 0.95) : d.number(1.05, 4.0));
+  const double other = 5.0 * band;
+  const std::string most = d.whole(0, 1) == 0 ? range(-held, other, "N") : range(-other, held, "N");
+  return file(task("a",
+                   "constraints: {led: {move: base_link, in: base_link, x: {yield: estimated.force.x, "
+                   "mass: 60 kg, damping: 80 N s/m, dead_band: " +
+                       q(band, "N") + ", force: " + most +
+                       "}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}",
+                   "", "{after: 20 s, goto: done}"));
+}
+
+/// D = -2 m ln(left) / T leaves that share of a swing after T = 20 s.
+std::string swinging_spring(Dice& d, bool fault) {
+  const double k = d.number(5.0, 50.0), left = fault ? d.number(0.55, 0.95) : d.number(0.05, 0.45);
+  const double damping = -2.0 * mass * std::log(left) / 20.0;
+  return file(
+      task("a",
+           "constraints: {go: {move: base_link, in: goal, x: {position: 0 m, stiffness: " + q(k, "N/m") +
+               ", damping: " + q(damping, "N s/m") + "}, y: {position: 0 m}, rz: {position: 0 deg}}}",
+           "", "{after: 20 s, goto: done}"),
+      "frames: {goal: {parent: world, at: [0.5 m, 0 m]}}\n");
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = [] {
     std::vector<Kind> some{
@@ -255,6 +280,8 @@ const std::vector<Kind>& kinds() {
         {"faster_than_a_norm", {"W416"}, faster_than_a_norm},
         {"diagonal_beyond_a_norm", {"W416"}, diagonal_beyond_a_norm},
         {"before_it_is_entered", {"W511"}, before_it_is_entered},
+        {"weak_dead_band", {"W647"}, weak_dead_band},
+        {"swinging_spring", {"W648"}, swinging_spring},
     };
     for (Kind& kind : kinds_of_places()) some.push_back(std::move(kind));
     for (Kind& kind : kinds_of_drivers()) some.push_back(std::move(kind));

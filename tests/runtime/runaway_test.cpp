@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "constants.hpp"
 #include "guard/contact_depth.hpp"
@@ -340,6 +341,54 @@ TEST(ProtectiveStop, BrakesWithAMotorThatTurnsTheWrongWay) {
     EXPECT_EQ(runner.guard().reason(), EventCode::requested);
     EXPECT_GT(rest_since, 0.0) << robot;
     EXPECT_LT(rest_since, 4.0) << robot;
+  }
+}
+
+/// Three omni wheels, or two of a differential base, do not brake every motion without one of them. A motor
+/// that is taken for reversed, and is not, is found by its torque, and brakes again. The base stands then,
+/// and the event tells it. A motor that really gives nothing, or the reverse, is never said to obey.
+TEST(ProtectiveStop, BrakesAgainWithAMotorThatIsTakenForReversed) {
+  struct Case {
+    const char *robot, *wheel;
+    std::optional<lang::FaultKind> fault;
+  };
+  const Case cases[] = {{"omni", "front_left_wheel", {}},
+                        {"omni", "rear_wheel", {}},
+                        {"diff", "right_wheel", {}},
+                        {"mecanum", "rear_left_wheel", {}},
+                        {"omni", "front_left_wheel", lang::FaultKind::torque_flipped},
+                        {"omni", "front_left_wheel", lang::FaultKind::torque_lost},
+                        {"diff", "right_wheel", lang::FaultKind::torque_flipped}};
+  for (const Case& one : cases) {
+    const lang::Program program = zwang::test::shipped_program("laws/circle.yaml", one.robot);
+    ScenePlantOptions options;
+    if (one.fault) options.faults.push_back({.kind = *one.fault, .at = 3.0, .joint = one.wheel});
+    ScenePlant plant(program, options);
+    Runner runner(program, {.period = period});
+    Sensed sensed(program.robot.model, program.signals.size());
+    const int joint = *program.robot.model.find_joint(one.wheel);
+    while (!runner.finished() && plant.truth().time < 14.0) {
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      if (plant.truth().time >= 3.0) {
+        runner.guard().stop(EventCode::torque_flipped, event_signal::of_joint(joint, event_signal::tau), 0.1);
+      }
+      ASSERT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    }
+    const auto obeyed = std::ranges::count(runner.events(), EventCode::motor_obeyed, &Event::code);
+    const double speed = plant.truth().velocity.head<2>().norm();
+    std::printf("%s, %s: stands %.2f s after the stop, %.4f m/s, obeyed %d\n", one.robot, one.wheel,
+                plant.truth().time - 3.0, speed, static_cast<int>(obeyed));
+    EXPECT_EQ(obeyed > 0, runner.guard().motor_obeyed());
+    if (one.fault) {
+      EXPECT_EQ(obeyed, 0) << one.robot;
+      continue;
+    }
+    EXPECT_LT(speed, 0.02) << one.robot << " " << one.wheel;
+    EXPECT_FALSE(runner.may_still_move()) << one.robot << " " << one.wheel;
+    EXPECT_LE(obeyed, 1) << one.robot;
+    if (obeyed > 0) {
+      EXPECT_NE(runner.because().find("obeyed"), std::string::npos) << runner.because();
+    }
   }
 }
 

@@ -65,6 +65,29 @@ Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ring
       is_error ? error("E417", span, message, help) : warning("W618", span, message, help), enough);
 }
 
+Diagnostic dead_band_not_held(const Span& span, const std::string& axis, bool turns,
+                              const BandNotHeld& band) {
+  const std::string unit = axis_units(turns).force;
+  const std::string wide = figure(band.dead_band, unit), held = figure(band.held, unit);
+  const std::string narrow = band.held > 0.0 ? ", or `dead_band: " + held + "`" : "";
+  return with_related(warning("W647", span,
+                              "`" + axis + "` does not stand inside its dead band of " + wide +
+                                  ": its force range holds " + held + ", and a harder push moves it undamped",
+                              "write `force: +-" + wide + "` or more" + narrow),
+                      band.dead_band_span, "the dead band is given here");
+}
+
+Diagnostic swings_on(const Span& span, const std::string& axis, bool turns, const Swinging& swinging) {
+  const std::string enough = at_least(swinging.enough, turns ? "N m s/rad" : "N s/m");
+  return with_replacement(
+      warning("W648", span,
+              "`" + axis + "` swings: on " + figure(swinging.mass, axis_units(turns).mass) +
+                  " its damping leaves " + figure(100.0 * swinging.left, "%") +
+                  " of a swing when the task's time of " + figure(swinging.time, "s") + " is over",
+              "write `damping: " + enough + "`, with which it does not swing"),
+      enough);
+}
+
 Diagnostic trails_its_target(const Span& span, const std::string& axis, const Trailed& trailed,
                              const Span& declared) {
   const std::string speed =

@@ -27,6 +27,23 @@ struct Ringing {
 };
 Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ringing& ringing, bool is_error);
 
+/// A yield with a force range below its dead band. [N] or [N m]
+struct BandNotHeld {
+  double dead_band = 0.0;
+  double held = 0.0;  ///< by the force range
+  Span dead_band_span;
+};
+Diagnostic dead_band_not_held(const Span& span, const std::string& axis, bool turns, const BandNotHeld& band);
+
+/// A spring that swings.
+struct Swinging {
+  double mass = 0.0;    ///< [kg] or [kg m^2] effective
+  double left = 0.0;    ///< share of a swing at the timeout
+  double time = 0.0;    ///< [s] until then
+  double enough = 0.0;  ///< [N s/m] or [N m s/rad] without a swing
+};
+Diagnostic swings_on(const Span& span, const std::string& axis, bool turns, const Swinging& swinging);
+
 /// A target that moves on while its signal is taken to stand.
 struct Trailed {
   double speed = 0.0;     ///< [m/s] or [rad/s] of the target

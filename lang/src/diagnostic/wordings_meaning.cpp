@@ -86,13 +86,15 @@ Diagnostic unknown_unit(const Span& span, const std::string& text, const std::st
   if (unknown == "rpm") diagnostic.help = "a turn has 360 deg: 1 rpm is `6 deg/s`";
   if (unknown == "rps") diagnostic.help = "a turn has 360 deg: one a second is `360 deg/s`";
   if (meant.empty()) return diagnostic;
-  diagnostic.help = "did you mean `" + meant + "`?";
+  std::string written = text;
   const std::size_t at = text.rfind(unknown);
   if (at != std::string::npos) {
-    std::string replaced = text;
     const bool is_glued = at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9';
-    diagnostic.replacement = replaced.replace(at, unknown.size(), (is_glued ? " " : "") + meant);
+    written.replace(at, unknown.size(), (is_glued ? " " : "") + meant);
+    diagnostic.replacement = written;
   }
+  // The whole value, not the unit alone: it can be copied as it stands.
+  diagnostic.help = "did you mean `" + (at == std::string::npos ? meant : written) + "`?";
   return diagnostic;
 }
 

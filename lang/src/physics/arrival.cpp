@@ -144,15 +144,15 @@ Arrival arrival_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisF
   return arrival;
 }
 
-Push push_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
-             const Arrival& arrival, double bound, const Drive& drive) {
+DriverPush driver_push_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
+                          const Arrival& arrival, double bound, const Drive& drive) {
   double most = std::min(figures.force, drive.mass_factor * most_pressed(plan, axis, figures));
   if (bound > 0.0) most = std::min(most, bound);
   if (axis.driver == solver::Quantity::velocity && !axis.build_up)
     most = std::min(most, drive.mass_factor * figures.mass * std::abs(*axis.target) / axis.time_constant);
   const double m = figures.mass, T = axis.time_constant;
   const bool is_known = axis.driver == solver::Quantity::velocity || arrival.left;
-  if (!is_known || axis.build_up || drive.feels_contact()) return Push::constant(most);
+  if (!is_known || axis.build_up || drive.feels_contact()) return DriverPush::constant(most);
   const double asked = m * asked_acceleration(axis, m, arrival.speed, arrival.left.value_or(0.0));
   if (axis.driver == solver::Quantity::velocity) return {most, asked, m / T, 0.0};
   if (!axis.is_spring) return {most, asked, 2.0 * m / T, m / (T * T)};

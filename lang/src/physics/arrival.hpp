@@ -24,7 +24,7 @@ Arrival arrival_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisF
                    const std::optional<Scene>& scene, bool is_first, Probe& probe);
 
 /// The force of the axis's driver against something that stops it, no more than `bound`, if above 0.
-Push push_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
-             const Arrival& arrival, double bound, const Drive& drive);
+DriverPush driver_push_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
+                          const Arrival& arrival, double bound, const Drive& drive);
 
 }  // namespace zwang::lang

@@ -31,7 +31,7 @@ double stepped_peak(const DrivenHit& hit) {
 
 }  // namespace
 
-double Push::at(double slower, double way) const {
+double DriverPush::at(double slower, double way) const {
   return std::clamp(at_arrival + per_speed * slower - per_way * way, -most, most);
 }
 

@@ -7,14 +7,14 @@ namespace zwang::lang {
 
 /// The driver's force F after it touched, u more slowly and x farther than then:
 ///     F = f + g u - k x,   |F| <= most.
-struct Push {
+struct DriverPush {
   double most = 0.0;        ///< [N]
   double at_arrival = 0.0;  ///< f [N]
   double per_speed = 0.0;   ///< g [N s/m]
   double per_way = 0.0;     ///< k [N/m]
 
   /// The same force however the robot moves.
-  static Push constant(double force) { return {force, force, 0.0, 0.0}; }
+  static DriverPush constant(double force) { return {force, force, 0.0, 0.0}; }
   bool is_constant() const { return per_speed == 0.0 && per_way == 0.0; }
   double at(double slower, double way) const;
 };
@@ -29,7 +29,7 @@ struct DrivenHit {
   double damping = 0.0;       ///< c [N s/m] of all of them
   double inverse_mass = 0.0;  ///< 1/M [1/kg]; 0: nothing moves the object
   double hold = 0.0;          ///< H [N]
-  Push push;
+  DriverPush push;
 
   /// m M / (m + M) [kg]
   double reduced_mass() const { return 1.0 / (1.0 / mass + inverse_mass); }

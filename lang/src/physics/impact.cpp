@@ -123,8 +123,8 @@ std::optional<Forecast> forecast(const PlannedTask& plan, const PlannedAxis& axi
   if (!(arrival.speed > 0.0)) return std::nullopt;
   const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
   const Vector3 along = sign * direction_in_base(axis, probe, scene);
-  const Comer comer{robot, figures->mass, push_of(plan, axis, *figures, arrival, bound, robot.drive), arrival,
-                    std::max(1, foremost_corners(robot.footprint, along))};
+  const Comer comer{robot, figures->mass, driver_push_of(plan, axis, *figures, arrival, bound, robot.drive),
+                    arrival, std::max(1, foremost_corners(robot.footprint, along))};
   const bool is_seen =
       scene && !robot.footprint.empty() && !(scene->objects.empty() && scene->robots.empty());
   std::optional<Struck> struck;

@@ -105,6 +105,8 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_dead_guard(context, plan, probe, remarks);
   ask_time_constant(plan, probe, remarks);
   ask_yields(context, plan, asked.scene, probe, remarks);
+  ask_dead_band(context, plan, remarks);
+  ask_swinging(context, plan, probe, remarks);
   ask_yield_axes(context, plan, probe, remarks);
   ask_wheel_torque(plan, probe, remarks);
   ask_boundary(context, plan, probe, remarks);

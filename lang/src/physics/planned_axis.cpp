@@ -161,6 +161,10 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
     axis.yield_mass_span = text.mass->span;
     axis.damping = known(context, *text.damping, turns ? dimension::angular_damping : dimension::damping);
   }
+  if (axis.is_yield && text.dead_band) {
+    axis.dead_band = known(context, *text.dead_band, turns ? dimension::torque : dimension::force);
+    axis.dead_band_span = text.dead_band->span;
+  }
   if (text.stiffness && text.damping) {
     axis.stiffness =
         known(context, *text.stiffness, turns ? dimension::angular_stiffness : dimension::stiffness);

@@ -49,6 +49,8 @@ struct PlannedAxis {
   bool is_yield = false;             ///< gives way to a force; its driver is an acceleration
   std::optional<double> yield_mass;  ///< M at the start
   Span yield_mass_span;
+  std::optional<double> dead_band;  ///< of a yield, at the start
+  Span dead_band_span;
   std::optional<double> build_up;  ///< [s] at the start
   Span build_up_span;
 

@@ -90,6 +90,10 @@ void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W618, E417: yields that ring when a hand holds them stiffly.
 void ask_yields(const CheckContext& context, const PlannedTask& plan, const std::optional<Scene>& scene,
                 Probe& probe, Remarks& remarks);
+/// W647: yields whose force range does not hold their dead band.
+void ask_dead_band(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
+/// W648: springs that still swing at the timeout.
+void ask_swinging(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W617: yields along an axis that is not the one along which their force is measured.
 void ask_yield_axes(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
                     Remarks& remarks);

@@ -27,7 +27,7 @@ struct Struck {
 struct Comer {
   const Robot& robot;
   double mass = 0.0;  ///< [kg] along the axis
-  Push push;
+  DriverPush push;
   const Arrival& arrival;
   int corners = 1;  ///< of its footprint that lie foremost
 };

@@ -68,6 +68,10 @@ constexpr std::array event_words{
     EventWords{EventCode::not_at_rest, "not_at_rest", "the stop's time is over, and the base may still move"},
     EventWords{EventCode::overrun, "overrun",
                "this computer is late: five control cycles were skipped within a second"},
+    EventWords{
+        EventCode::motor_obeyed, "motor_obeyed",
+        "in the stop's brake this motor obeyed: a mass that is not the model's, or a push, looked like "
+        "its fault"},
 };
 
 constexpr bool is_in_order() {

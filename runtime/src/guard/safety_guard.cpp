@@ -377,6 +377,10 @@ void SafetyGuard::latch(const Event& event) noexcept {
   }
 }
 
+bool SafetyGuard::motor_obeyed() const noexcept {
+  return stopped() && brake_->has_obeyed();
+}
+
 void SafetyGuard::reset() noexcept {
   stop_event_ = {};
   brakes_by_model_ = holds_by_model_ = false;

@@ -38,9 +38,11 @@ void WheelBrake::begin(int suspect, double believed) noexcept {
   }
   believed_ = left_out_ < 0 ? 0.0 : believed;
   is_suspected_only_ = left_out_ >= 0 && believed == 0.0;
+  may_be_mistaken_ = believed_ > 0.0 && std::isfinite(believed_);
   slope_is_due_ = left_out_ < 0;
   slope_time_ = slope_for_ = 0.0;
   sense_ = 0.0;
+  has_obeyed_ = false;
   may_turn_ = true;
   even_looks_ = 0;
   tried_ = 0;
@@ -83,6 +85,8 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
     least_sum_ = sum;
     if (sense_ != 0.0 && is_suspected_only_) {
       brake_with_the_suspect();
+    } else if (sense_ != 0.0 && may_be_mistaken_) {
+      brake_with_the_accused();
     } else if (sense_ != 0.0) {
       sense_ = 0.0;
       may_turn_ = false;
@@ -107,6 +111,15 @@ void WheelBrake::brake_with_the_suspect() noexcept {
   left_out_ = -1;
   sense_ = 0.0;
   even_looks_ = 0;
+}
+
+/// The same of a motor that was taken for lost or reversed. The growth can have another source, as a wall
+/// that gives back. So the brake is soft, and from now on any growth leaves out another motor.
+void WheelBrake::brake_with_the_accused() noexcept {
+  brake_with_the_suspect();
+  is_suspected_only_ = has_obeyed_ = true;
+  may_be_mistaken_ = false;
+  believed_ = 0.0;
 }
 
 /// Of the wheels that were told to brake, the one whose rate grew most since the last look.

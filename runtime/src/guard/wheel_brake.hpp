@@ -14,8 +14,9 @@ namespace zwang::runtime {
 /// is left out. If the wheels get faster under the brake, the one with the largest gain is left out instead.
 /// If that does not end the gain, each wheel in turn is left out, and at last all of them. Few wheels cannot
 /// brake every motion without the one that is left out. If they roll on evenly, its torque is reversed. If
-/// the wheels then get faster, its motor obeys. A motor that was only under suspicion brakes again; any other
-/// motor stays left out, without torque. That also brakes a base whose motors, or encoders, are all wired the
+/// the wheels then get faster, its motor obeys. A motor that was only under suspicion brakes again. So does a
+/// motor that was taken for lost or reversed, a tenth as stiffly: a mass that the model lacks looks like one.
+/// Any other motor stays left out, without torque. That also brakes a base whose motors, or encoders, are all wired the
 /// wrong way round.
 ///
 /// While a motor is only under suspicion, the brake is a tenth as stiff. Another motor that drives the base
@@ -43,6 +44,8 @@ class WheelBrake {
   /// All motors, or all encoders, are the wrong way round.
   void begin_turned_around() noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
+  /// Since it began: the motor that the stop is about was told the reverse, and drove the base. It obeys.
+  bool has_obeyed() const noexcept { return has_obeyed_; }
   /// Takes a tick with a trusted sample. The sample before it is the one that counts. When encoders die,
   /// their rates may show it a sample before their positions stay.
   void remember(const solver::State& state) noexcept;
@@ -78,6 +81,7 @@ class WheelBrake {
   static PlanarInertia planar_inertia(const solver::Model& model);
   void look(const Eigen::VectorXd& qd) noexcept;
   void brake_with_the_suspect() noexcept;
+  void brake_with_the_accused() noexcept;
   void leave_out_the_fastest(const Eigen::VectorXd& qd) noexcept;
   void leave_out_the_next() noexcept;
   int all() const noexcept { return static_cast<int>(wheels_.size()); }  ///< as `left_out_`
@@ -114,6 +118,8 @@ class WheelBrake {
   int tried_ = 0;          ///< choices of a motor that is left out
   double believed_ = 0.0;  ///< [m/s] beyond it another motor is sought
   bool is_suspected_only_ = false;
+  bool has_obeyed_ = false;
+  bool may_be_mistaken_ = false;  ///< what is left out is taken for lost or reversed, not for stuck
   double last_sum_ = 0.0;   ///< [m^2/s^2]
   double least_sum_ = 0.0;  ///< [m^2/s^2] since the motors are chosen that brake
 };

@@ -135,11 +135,15 @@ void Runner::Parts::keep_stop(bool good_sample) noexcept {
   stop_is_told = false;
   stopped_ticks = 0;
   rest.begin();
-  is_past_stop = is_rest_doubted = false;
+  is_past_stop = is_rest_doubted = is_obedience_told = false;
 }
 
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
+  if (guard.motor_obeyed() && !is_obedience_told) {
+    is_obedience_told = true;
+    tell({EventCode::motor_obeyed, guard.time(), guard.stop_event().signal, guard.stop_event().value});
+  }
   // Where one wheel's encoder is dead, the others do not tell how the base moves.
   if (good_sample && !is_a_wheel_dead && !blind_budget.takes_over() && !blind_arm.takes_over()) {
     rest.look(estimated.state.base_twist, period);

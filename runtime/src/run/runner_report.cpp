@@ -73,6 +73,7 @@ bool Runner::may_still_move() const noexcept {
 std::string Runner::because() const {
   std::string words;
   if (parts_->guard.stopped()) words = describe(parts_->guard.reason());
+  if (parts_->guard.motor_obeyed()) words += std::string("; ") + describe(EventCode::motor_obeyed);
   if (may_still_move()) words += (words.empty() ? "" : "; ") + std::string(unseen_rest);
   return words;
 }
@@ -239,6 +240,8 @@ std::optional<Why> Runner::why() const {
   for (const Event& told : p.events) {
     if (told.code == EventCode::signal_refused && told.signal >= first) {
       end.refused.push_back({p.signals[static_cast<std::size_t>(told.signal - first)].name, told.value});
+    } else if (told.code == EventCode::motor_obeyed) {
+      continue;  // describe_stop says it
     } else if (!latches_the_stop(told.code) && !is_told_already(kinds, told) && told.time <= until) {
       kinds.push_back(told);
       const std::string at = with_unit(told.time - began, "s");
@@ -264,7 +267,8 @@ std::optional<Why> Runner::why() const {
 std::string Runner::describe_stop() const {
   const Event& stop = parts_->guard.stop_event();
   const std::string signal = event_signal(stop);
-  return std::string(describe(stop.code)) + (signal.empty() ? "" : " (`" + signal + "`)");
+  return std::string(describe(stop.code)) + (signal.empty() ? "" : " (`" + signal + "`)") +
+         (parts_->guard.motor_obeyed() ? std::string("; ") + describe(EventCode::motor_obeyed) : "");
 }
 
 }  // namespace zwang::runtime

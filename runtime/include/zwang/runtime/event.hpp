@@ -54,8 +54,9 @@ enum class EventCode {
   not_at_rest,  ///< the longest time of a stop is over, and no sample shows the base at rest; `value`: its
                 ///< speed, as far as it is known
   overrun,  ///< the host has skipped five control cycles within a second; `value`: how late the last was [s]
+  motor_obeyed,  ///< the motor that the stop is about obeyed in the stop's brake
 };
-inline constexpr EventCode last_event_code = EventCode::overrun;
+inline constexpr EventCode last_event_code = EventCode::motor_obeyed;
 ZWANG_EXPORT const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
 ZWANG_EXPORT const char* describe(EventCode code) noexcept;

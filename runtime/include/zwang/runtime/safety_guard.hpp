@@ -110,6 +110,8 @@ class ZWANG_EXPORT SafetyGuard {
   const GuardCounters& counters() const noexcept { return counters_; }
   /// The event that latched the stop; its code is `none` while the stop is not latched.
   const Event& stop_event() const noexcept { return stop_event_; }
+  /// The brake of this stop has found that the motor which the stop is about obeys.
+  bool motor_obeyed() const noexcept;
   /// The fault of the sample that `admit` refused last.
   const Event& refusal() const noexcept { return refusal_; }
 
