@@ -89,8 +89,8 @@ void wait_for_command(RobotSide& side, World& world, const lang::Robot& robot, H
   }
 }
 
-/// With a clock of its own the world stands while a command or a tick of the other side is due, so that a
-/// busy machine is slow and not late. A message that was lost may have both sides wait for each other: the
+/// With a clock of its own the world stands while a command or a tick of the other side is due. A busy
+/// machine is slow then, and not late. A message that was lost may have both sides wait for each other. The
 /// world makes one step before the other side takes the robot for dead. A controller that is silent for
 /// `longest_wait` is not waited for until its next command.
 class InStep {

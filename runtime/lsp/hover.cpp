@@ -179,8 +179,8 @@ std::string about_parameter(const Asked& asked, const std::string& name) {
   return {};
 }
 
-/// By the file that gives it. What a robot file gives is a frame; a word of a condition that no file gives
-/// may be anything.
+/// By the file that gives it. A name that a robot file gives is a frame. A word of a condition that no file
+/// gives may be anything.
 std::optional<lang::NameKind> kind_of_name(const Asked& asked, const lang::NamePlace& name) {
   if (name.is_given || name.kinds.size() == 1) return name.kinds.front();
   for (const std::filesystem::path& file : homes_of(asked.file)) {

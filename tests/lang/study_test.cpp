@@ -82,7 +82,7 @@ TEST(Halton, FillsTheUnitIntervalEvenly) {
   }
 }
 
-/// Of fewer than b^k points each has a digit among the first k that is not the zero's: from both ends it is
+/// Of fewer than b^k points each has a digit among the first k that is not the zero's. From both ends it is
 /// b^-k / (b - 1) away at least. A cell at an end would draw what no robot is.
 TEST(Halton, HasNoCellAtAnEnd) {
   const std::size_t bases[] = {2, 3, 5};

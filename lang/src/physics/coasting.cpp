@@ -5,9 +5,9 @@
 //
 //   ds = n . (vx - w ry, vy + w rx)          or w, of a row that turns
 //
-// A motion that moves no row of the next task goes on as fast as the task before drove it. An exit that waits
-// for rest, for a force or for a signal may lead on from a contact that has stopped the base, so only times,
-// ways and places are asked about.
+// A motion that moves no row of the next task goes on as fast as the task before drove it. Exits that
+// wait for times, ways and places are asked about. One that waits for rest, a force or a signal may lead on
+// from a contact that has stopped the base.
 #include <algorithm>
 #include <cmath>
 

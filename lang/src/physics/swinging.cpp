@@ -6,8 +6,8 @@
 //
 //   exp(-D t / (2 Lambda))
 //
-// after the time t. It is told where half of it is left at the timeout, if a half swing, pi/w, fits into that
-// time: a shorter task ends while the spring still pulls one way.
+// after the time t. It is told where half of it is left at the timeout. A half swing, pi/w, has to fit into
+// that time: a shorter task ends while the spring still pulls one way.
 #include <cmath>
 #include <numbers>
 

@@ -211,8 +211,8 @@ class Fitting {
   /// [N m] Half of the moment with which the least push squares the base up.
   double gentle_moment() const { return rounded(0.5 * force_of(5.0) * lever()); }
 
-  /// Casters that turn over weigh along x, and hardly across: the row that holds the heading makes up for a
-  /// turn that the push would bring, and the wall prevents. Its moment is less than the wall's.
+  /// Casters that turn over weigh along x, and hardly across. The row that holds the heading makes up for a
+  /// turn that the push would bring, and that the wall prevents. Its moment is less than the wall's.
   void hold_gently(std::string& text) const {
     const std::string row = "rz: {velocity: 0 rad/s, time_constant: 0.4 s";
     replace(text, row + "}", row + ", force: +-" + wording::figure(gentle_moment(), "N m") + "}");

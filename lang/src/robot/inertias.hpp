@@ -8,7 +8,7 @@ namespace zwang::lang {
 
 InertiaText parse_inertia(const Entry& entry, Diagnostics& diagnostics);
 
-/// A wheel's link becomes a solid disc about its axle, with its centre of mass on it; another link becomes a
+/// A wheel's link becomes a solid disc about its axle, with its centre of mass on it. Another link becomes a
 /// solid ball about its own centre of mass.
 void apply_inertias(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics);
 

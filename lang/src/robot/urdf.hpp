@@ -46,7 +46,7 @@ struct UrdfJoint {
   solver::Vector3 drawn_axis = solver::Vector3::UnitX();  ///< of the file, of joints that are fixed, too
   bool is_turned = false;                                 ///< a robot file lets it turn without end
   double coulomb = 0.0, viscous = 0.0;  ///< [N m], [N m s/rad] or [N], [N s/m] of <dynamics>
-  bool has_transmission = false;  ///< a <transmission> or <ros2_control> names it, with a motor
+  bool has_transmission = false;        ///< a <transmission> or <ros2_control> names it, with a motor
   Span span;
 };
 

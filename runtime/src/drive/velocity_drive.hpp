@@ -45,7 +45,7 @@ class VelocityDrive {
   /// None came for too long: by the age of the newest one [s].
   std::optional<Event> look_for_samples(double time) const noexcept;
   /// With a new sample: whether a wheel turns the way that it was told. A wheel on its torque limit may be
-  /// carried along by other motors and a contact: its own motor is at fault if it gains speed against its
+  /// carried along by other motors and a contact. Its own motor is at fault if it gains speed against its
   /// command. A drive with torque limits of its own is checked further: whether the wheel is as fast, and
   /// whether the base moves with its wheels. At a wall the wheels may spin, or the base slides along it. The
   /// event has the wheel's rate, or the base's speed.

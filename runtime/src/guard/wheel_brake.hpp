@@ -16,8 +16,8 @@ namespace zwang::runtime {
 /// brake every motion without the one that is left out. If they roll on evenly, its torque is reversed. If
 /// the wheels then get faster, its motor obeys. A motor that was only under suspicion brakes again. So does a
 /// motor that was taken for lost or reversed, a tenth as stiffly: a mass that the model lacks looks like one.
-/// Any other motor stays left out, without torque. That also brakes a base whose motors, or encoders, are all wired the
-/// wrong way round.
+/// Any other motor stays left out, without torque. That also brakes a base whose motors, or encoders, are all
+/// wired the wrong way round.
 ///
 /// While a motor is only under suspicion, the brake is a tenth as stiff. Another motor that drives the base
 /// then needs at least some 40 ms to double a rate. The brake sees that before that motor presses.
@@ -120,8 +120,8 @@ class WheelBrake {
   bool is_suspected_only_ = false;
   bool has_obeyed_ = false;
   bool may_be_mistaken_ = false;  ///< what is left out is taken for lost or reversed, not for stuck
-  double last_sum_ = 0.0;   ///< [m^2/s^2]
-  double least_sum_ = 0.0;  ///< [m^2/s^2] since the motors are chosen that brake
+  double last_sum_ = 0.0;         ///< [m^2/s^2]
+  double least_sum_ = 0.0;        ///< [m^2/s^2] since the motors are chosen that brake
 };
 
 }  // namespace zwang::runtime

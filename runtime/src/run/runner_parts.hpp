@@ -167,12 +167,12 @@ struct Runner::Parts {
   std::uint64_t transition_count = 0;
   TurningPoint turning_point;
   std::uint64_t stopped_ticks = 0;
-  bool is_a_wheel_dead = false;  ///< the stop is for its encoder
+  bool is_a_wheel_dead = false;    ///< the stop is for its encoder
   bool is_obedience_told = false;  ///< of the motor that the stop is about
-  RestWatch rest;                ///< after a protective stop
-  bool is_past_stop = false;     ///< a protective stop is over, by its time if not by rest
-  bool is_rest_doubted = false;  ///< no sample has shown the base at rest after it
-  bool is_end_doubted = false;   ///< no sample has shown the base at rest after the task
+  RestWatch rest;                  ///< after a protective stop
+  bool is_past_stop = false;       ///< a protective stop is over, by its time if not by rest
+  bool is_rest_doubted = false;    ///< no sample has shown the base at rest after it
+  bool is_end_doubted = false;     ///< no sample has shown the base at rest after the task
 };
 
 }  // namespace zwang::runtime

@@ -95,8 +95,8 @@ void RegionFence::put_axis(Stretch& stretch) const {
 }
 
 /// Whether each edge points at the place, `offset` from the stretch's centre, or away from it: then the place
-/// is beside none. With a the angle between offset and axis, and s that of the largest spread, an edge's end
-/// is less far along the edge than the place if
+/// is beside none. Let a be the angle between offset and axis, and s that of the largest spread. An edge's
+/// end is less far along the edge than the place if
 ///   |offset| cos(a + s) > radius.
 inline bool RegionFence::points_at(const Stretch& stretch, const Point& offset) noexcept {
   const double along = std::abs(offset.dot(stretch.axis));
