@@ -1,6 +1,7 @@
 #include "diagnostic/wordings_norms.hpp"
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "words/units.hpp"
 
 namespace zwang::lang::wording {

@@ -130,8 +130,8 @@ void check_physics(CheckContext& context, const std::optional<Scene>& scene, con
     AllTasks all{{}, scene};
     for (const TaskText& task : context.file.tasks) all.plans.push_back(plan_task(context, task));
     // To ask each pair of tasks whether a way leads from one to the other takes too long in a large file.
-    constexpr std::size_t most_tasks = 32;
-    if (all.plans.size() > most_tasks) all.any = driven_by_any(all.plans, probe);
+    constexpr std::size_t most_asked_alone = 32;
+    if (all.plans.size() > most_asked_alone) all.any = driven_by_any(all.plans, probe);
     const Asked asked{scene, conditions, all, held_steerings(context, context.robot->model),
                       scene.value_or(Scene{}).floor_friction};
     if (!context.diagnostics.has_errors())

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zwang/lang/scene.hpp"
+#include "zwang/solver/spatial.hpp"
 
 namespace zwang::lang {
 

@@ -13,6 +13,7 @@
 #include "scene/outline.hpp"
 #include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
+#include "zwang/solver/constraint.hpp"
 
 namespace zwang::lang {
 
