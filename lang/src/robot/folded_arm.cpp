@@ -21,6 +21,7 @@
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/gravity.hpp"
 #include "zwang/lang/plane.hpp"
+#include "zwang/solver/constraint.hpp"
 
 namespace zwang::lang {
 
