@@ -73,9 +73,7 @@ class DraftBodies {
   bool is_out_of_balance(const DraftWheel& wheel) const {
     const solver::RigidInertia& inertia = urdf_.find_link(wheel.link)->inertia;
     const double beside = beside_axis(inertia, urdf_.find_joint(wheel.joint)->joint.axis);
-    double mass = 0.0;
-    for (const UrdfLink& link : urdf_.links) mass += link.inertia.mass;
-    return inertia.mass * beside > most_imbalance * mass * wheel.radius.value_or(0.3);
+    return inertia.mass * beside > most_imbalance * urdf_.mass() * wheel.radius.value_or(0.3);
   }
 
   static double reach_of(const DraftWheel& wheel) { return wheel.trail + wheel.radius.value_or(0.3); }
