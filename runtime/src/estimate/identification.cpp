@@ -51,6 +51,33 @@ Eigen::Vector3d velocity_row(const Eigen::Vector3d& direction, const Eigen::Vect
   return {direction.x(), direction.y(), at.x() * direction.y() - at.y() * direction.x()};
 }
 
+/// Appends unit vectors until `basis`, which is orthonormal, spans `more`, too.
+void extend(std::vector<Eigen::Vector3d>& basis, const std::vector<Eigen::Vector3d>& more) {
+  constexpr double least = 1e-6;  // of a vector's length: what is left of it else is rounding
+  for (const Eigen::Vector3d& vector : more) {
+    Eigen::Vector3d left = vector;
+    for (const Eigen::Vector3d& unit : basis) left -= unit.dot(left) * unit;
+    if (left.norm() > least * vector.norm()) basis.push_back(left.normalized());
+  }
+}
+
+/// A = V D V'. Up to the most condition its inverse keeps six of sixteen digits. Noise that is larger than
+/// the motion makes an eigenvalue negative.
+Eigen::MatrixXd inverse_at_unit_columns(const Eigen::MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(A);
+  const Eigen::VectorXd& values = gram.eigenvalues();  // the least comes first
+  if (!(values(0) * most_condition * most_condition > values(values.size() - 1)))
+    throw NotIdentified(
+        "too little variety: friction, torque and mass cannot be told apart. Drive ahead, back and "
+        "turn at unlike speeds, as the task `identify` does");
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(A.rows(), A.cols());
+  for (Eigen::Index n = 0; n < values.size(); ++n) {
+    const Eigen::VectorXd v = gram.eigenvectors().col(n);
+    inverse += v * v.transpose() / values(n);
+  }
+  return inverse;
+}
+
 }  // namespace
 
 DriveIdentification::DriveIdentification(const lang::Robot& robot, std::optional<double> mass) : mass_(mass) {
@@ -109,16 +136,30 @@ void DriveIdentification::find_wheels(const lang::Robot& robot) {
   }
   if (motors_.empty())
     throw NotIdentified("`" + robot.name + "` has no motor on a wheel that is fixed to the base");
-  Eigen::MatrixXd holds =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(std::max<std::size_t>(held.size(), 1)), 3);
-  for (std::size_t i = 0; i < held.size(); ++i) holds.row(static_cast<Eigen::Index>(i)) = held[i];
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu = Eigen::FullPivLU<Eigen::MatrixXd>(holds).setThreshold(1e-6);
-  permitted_ = lu.kernel();
-  const auto count = static_cast<Eigen::Index>(wheels_.size());
-  Eigen::MatrixXd rates(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) rates.row(i) = wheels_[static_cast<std::size_t>(i)].rates;
-  const Eigen::MatrixXd reduced = rates * permitted_;
-  twist_of_ = permitted_ * reduced.completeOrthogonalDecomposition().pseudoInverse();
+  permit(held);
+}
+
+/// With the permitted motions as columns of B, and rows a_i = j_i' B B': V = (A'A + I - B B')^-1 A' w.
+void DriveIdentification::permit(const std::vector<Eigen::Vector3d>& held) {
+  std::vector<Eigen::Vector3d> basis;
+  extend(basis, held);
+  const auto count = static_cast<std::ptrdiff_t>(basis.size());
+  extend(basis, {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()});
+  permitted_.assign(basis.begin() + count, basis.end());
+  if (permitted_.empty()) throw NotIdentified("the wheels that are fixed to the base hold it in place");
+  Eigen::Matrix3d onto = Eigen::Matrix3d::Zero();  // B B'
+  for (const Eigen::Vector3d& motion : permitted_) onto += motion * motion.transpose();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Identity() - onto;
+  for (Wheel& wheel : wheels_) {
+    const Eigen::Vector3d row = onto * wheel.rates;
+    squares += row * row.transpose();
+  }
+  // A product of ones, of 1/r^2 and of squares of levers by r; 0 where a motion turns no wheel.
+  constexpr double least = 1e-6;
+  if (!(squares.determinant() > least))
+    throw NotIdentified("the wheels that are fixed to the base do not show how it moves");
+  const Eigen::Matrix3d inverse = squares.inverse();
+  for (Wheel& wheel : wheels_) wheel.twist = inverse * (onto * wheel.rates);
 }
 
 void DriveIdentification::begin_run(double added_load) {
@@ -128,10 +169,12 @@ void DriveIdentification::begin_run(double added_load) {
 
 void DriveIdentification::add(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                               const Eigen::VectorXd& tau) {
-  Sample now{time, Eigen::VectorXd(static_cast<Eigen::Index>(wheels_.size())), {}, q, tau};
+  Sample now{time, Eigen::VectorXd(static_cast<Eigen::Index>(wheels_.size())), Eigen::Vector3d::Zero(), q,
+             tau};
   for (std::size_t i = 0; i < wheels_.size(); ++i)
     now.rates(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
-  now.twist = twist_of_ * now.rates;
+  for (std::size_t i = 0; i < wheels_.size(); ++i)
+    now.twist += wheels_[i].twist * now.rates(static_cast<Eigen::Index>(i));
   if (!samples_.empty() && time - samples_.back().time > longest_gap) samples_.clear();
   if (samples_.empty()) is_clean_ = true;
   samples_.push_back(std::move(now));
@@ -213,8 +256,7 @@ void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& w
   known.head<2>() += caster_mass_ * twist_change.head<2>();
   for (std::size_t i = 0; i < wheels_.size(); ++i)
     known += wheels_[i].rates * wheels_[i].inertia * rate_change(static_cast<Eigen::Index>(i));
-  for (Eigen::Index n = 0; n < permitted_.cols(); ++n) {
-    const Eigen::Vector3d along = permitted_.col(n);
+  for (const Eigen::Vector3d& along : permitted_) {
     // A line about the vertical has moments: as forces at an arm it counts as much as the others.
     const double scale = 1.0 / std::hypot(along.head<2>().norm(), along.z() * length_);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(columns());
@@ -235,46 +277,39 @@ void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& w
 }
 
 Identification DriveIdentification::solve() const {
-  const std::size_t windows = even_.left.size() / static_cast<std::size_t>(permitted_.cols());
+  const std::size_t windows = even_.left.size() / permitted_.size();
   if (windows < fewest_windows)
     throw NotIdentified("too little motion: " + std::to_string(windows) +
                         " windows of 0.2 s in which all wheels "
                         "turn, of " +
                         std::to_string(fewest_windows) + " that are needed");
-  const auto lines = static_cast<Eigen::Index>(even_.left.size());
-  Eigen::MatrixXd x(lines, columns()), z(lines, columns());
-  Eigen::VectorXd y_x(lines), y_z(lines);
-  for (Eigen::Index i = 0; i < lines; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    x.row(i) = even_.left[k];
-    z.row(i) = odd_.left[k];
-    y_x(i) = even_.right[k];
-    y_z(i) = odd_.right[k];
-  }
-  const Eigen::VectorXd squares = x.cwiseProduct(z).colwise().sum();
+  const std::size_t lines = even_.left.size();
+  const Eigen::Index size = columns();
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(size);
+  for (std::size_t i = 0; i < lines; ++i) squares += even_.left[i].cwiseProduct(odd_.left[i]);
   if (squares.minCoeff() <= 0.0)
     throw NotIdentified("too little motion: the base never turned, or a motor never pushed");
   const Eigen::VectorXd norms = squares.cwiseSqrt();
-  x *= norms.cwiseInverse().asDiagonal();
-  z *= norms.cwiseInverse().asDiagonal();
-  // A = V D V' at unit columns. Up to the most condition its inverse keeps six of sixteen digits. Noise that
-  // is larger than the motion makes an eigenvalue negative.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(0.5 * (z.transpose() * x + x.transpose() * z));
-  const Eigen::VectorXd& values = gram.eigenvalues();  // the least comes first
-  if (!(values(0) * most_condition * most_condition > values(values.size() - 1)))
-    throw NotIdentified(
-        "too little variety: friction, torque and mass cannot be told apart. Drive ahead, back and "
-        "turn at unlike speeds, as the task `identify` does");
-  const Eigen::MatrixXd& v = gram.eigenvectors();
-  const Eigen::MatrixXd inverse = v * values.cwiseInverse().asDiagonal() * v.transpose();
-  const Eigen::VectorXd scaled = inverse * (0.5 * (z.transpose() * y_x + x.transpose() * y_z));
-  const Eigen::VectorXd off_x = y_x - x * scaled, off_z = y_z - z * scaled;
-  const Eigen::MatrixXd scores = 0.5 * (off_x.asDiagonal() * z + off_z.asDiagonal() * x);
-  const double freedom =
-      static_cast<double>(lines) / std::max<double>(1.0, static_cast<double>(lines - columns()));
-  const Eigen::MatrixXd covariance = freedom * inverse * (scores.transpose() * scores) * inverse;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+  for (std::size_t i = 0; i < lines; ++i) {
+    const Eigen::VectorXd x = even_.left[i].cwiseQuotient(norms), z = odd_.left[i].cwiseQuotient(norms);
+    A += 0.5 * (z * x.transpose() + x * z.transpose());
+    right += 0.5 * (even_.right[i] * z + odd_.right[i] * x);
+  }
+  const Eigen::MatrixXd inverse = inverse_at_unit_columns(A);
+  const Eigen::VectorXd scaled = inverse * right;
+  Eigen::VectorXd variances = Eigen::VectorXd::Zero(size);
+  for (std::size_t i = 0; i < lines; ++i) {
+    const Eigen::VectorXd x = even_.left[i].cwiseQuotient(norms), z = odd_.left[i].cwiseQuotient(norms);
+    const double off_x = even_.right[i] - x.dot(scaled), off_z = odd_.right[i] - z.dot(scaled);
+    const Eigen::VectorXd moved = inverse * (0.5 * (off_x * z + off_z * x));  // A^-1 s
+    variances += moved.cwiseAbs2();
+  }
+  variances *=
+      static_cast<double>(lines) / std::max(1.0, static_cast<double>(lines) - static_cast<double>(size));
   const auto estimate = [&](Eigen::Index n) {
-    return Estimate{scaled(n) / norms(n), std::sqrt(covariance(n, n)) / norms(n)};
+    return Estimate{scaled(n) / norms(n), std::sqrt(variances(n)) / norms(n)};
   };
   Identification result;
   result.windows = windows;

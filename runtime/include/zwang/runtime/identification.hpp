@@ -63,6 +63,7 @@ class ZWANG_EXPORT DriveIdentification {
     bool has_motor = false;
     double inertia = 0.0;   ///< [kg m^2] about its axis, rotor included
     Eigen::Vector3d rates;  ///< j: rate [rad/s] = j . (vx, vy, wz)
+    Eigen::Vector3d twist;  ///< its part of (vx, vy, wz) is this times its rate
   };
   struct Sample {
     double time = 0.0;
@@ -83,6 +84,7 @@ class ZWANG_EXPORT DriveIdentification {
     std::vector<double> right;
   };
   void find_wheels(const lang::Robot& robot);
+  void permit(const std::vector<Eigen::Vector3d>& held);
   void end_window();
   std::vector<double> trapezoid() const;
   Eigen::VectorXd weights(const std::vector<double>& f, std::size_t parity) const;
@@ -91,14 +93,13 @@ class ZWANG_EXPORT DriveIdentification {
   Eigen::Vector3d momentum_per_mass(const Eigen::Vector3d& twist) const;
   Eigen::Index columns() const;
 
-  std::vector<Wheel> wheels_;        ///< that stand fixed to the base
-  std::vector<int> swivels_;         ///< joints of casters
-  std::vector<std::size_t> motors_;  ///< of `wheels_`
-  Eigen::MatrixXd permitted_;        ///< 3 x n, the motions that no wheel holds
-  Eigen::MatrixXd twist_of_;         ///< 3 x wheels, (vx, vy, wz) from the rates
-  Eigen::Vector2d centre_;           ///< [m] of mass, in the base
-  double caster_mass_ = 0.0;         ///< [kg] that the spin of caster wheels adds along x and y
-  double length_ = 0.3;              ///< [m] makes forces of torques
+  std::vector<Wheel> wheels_;               ///< that stand fixed to the base
+  std::vector<int> swivels_;                ///< joints of casters
+  std::vector<std::size_t> motors_;         ///< of `wheels_`
+  std::vector<Eigen::Vector3d> permitted_;  ///< B: motions that no wheel holds, orthonormal
+  Eigen::Vector2d centre_;                  ///< [m] of mass, in the base
+  double caster_mass_ = 0.0;                ///< [kg] that the spin of caster wheels adds along x and y
+  double length_ = 0.3;                     ///< [m] makes forces of torques
   std::optional<double> mass_;
   double added_load_ = 0.0;
   std::vector<Sample> samples_;  ///< of the window that is open
