@@ -17,7 +17,11 @@
 // The lines are linear in each motor's torque factor k_i, dry friction c_i and viscous friction d_i. They are
 // linear in J, and in m where it is asked for.
 //
-// Measured rates are noisy, and a column that has noise is estimated too small by least squares: m and J
+// Rates are differences of positions: drivers often hand on rates behind a low pass. Samples may come late as
+// a whole, by l. Then the torques that belong to them were told by l before. Of all l up to 60 ms the one
+// counts with the least  sum s_x s_z,  where s are what the lines below leave.
+//
+// Measured positions are noisy, and a column that has noise is estimated too small by least squares: m and J
 // stand before such columns. So the means are taken twice, of every other sample, X and Z. Their noise is not
 // correlated, and so it is in no product of both:
 //
@@ -42,6 +46,10 @@ constexpr double window = 0.2;        // [s]
 constexpr double ramp = 0.06;         // [s]
 constexpr double longest_gap = 0.05;  // [s] between records
 constexpr double least_rate = 0.3;    // [rad/s] of a wheel whose dry friction slides
+constexpr double aside = 0.01;        // [s] before and behind, where positions give a rate
+constexpr double lag_step = 1e-3;     // [s]
+constexpr double first_lag = -0.012;  // [s] of logs at 50 Hz: a record has the torque of its begin
+constexpr int lags = 73;              // up to 60 ms
 constexpr double most_swing = 0.3;    // [rad/s] of a caster
 constexpr std::size_t fewest_windows = 20;
 constexpr double most_condition = 1e5;  // of the columns at unit length
@@ -123,26 +131,37 @@ void DriveIdentification::find_wheels(const lang::Robot& robot) {
 
 void DriveIdentification::begin_run(double added_load) {
   samples_.clear();
+  pushed_at_.clear();
+  pushed_.clear();
   added_load_ = added_load;
 }
 
 void DriveIdentification::add(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                               const Eigen::VectorXd& tau) {
-  Sample now{time, Eigen::VectorXd(static_cast<Eigen::Index>(wheels_.size())), {}, q, tau};
+  if (!samples_.empty() && !(time > samples_.back().time)) return;
+  const auto count = static_cast<Eigen::Index>(wheels_.size());
+  Sample now{time, Eigen::VectorXd(count), Eigen::VectorXd(count), {}, q, tau};
   for (std::size_t i = 0; i < wheels_.size(); ++i)
-    now.rates(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
-  now.twist = twist_of_ * now.rates;
-  if (!samples_.empty() && time - samples_.back().time > longest_gap) samples_.clear();
+    now.measured(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
+  if (!samples_.empty() && time - samples_.back().time > longest_gap) begin_run(added_load_);
+  const double since = samples_.empty() ? 0.0 : time - samples_.back().time;
+  pushed_.push_back(samples_.empty() ? Eigen::VectorXd::Zero(tau.size())
+                                     : Eigen::VectorXd(pushed_.back() + since * samples_.back().tau));
+  pushed_at_.push_back(time);
   if (samples_.empty()) is_clean_ = true;
   samples_.push_back(std::move(now));
-  const Eigen::VectorXd& rates = samples_.back().rates;
+  const Eigen::VectorXd& rates = samples_.back().measured;
   is_clean_ = is_clean_ && (rates.array().abs() >= least_rate).all() &&
-              (rates.array() * samples_.front().rates.array() > 0.0).all();
+              (rates.array() * samples_.front().measured.array() > 0.0).all();
   for (const int swivel : swivels_) is_clean_ = is_clean_ && std::abs(qd(swivel)) <= most_swing;
   if (time - samples_.front().time < window - 1e-9) return;
-  if (is_clean_) end_window();
+  if (is_clean_ && rolls_on_at_the_ends() && samples_.front().time - pushed_at_.front() >= lags * lag_step)
+    end_window();
   samples_.erase(samples_.begin(), samples_.end() - 1);
-  is_clean_ = (samples_.front().rates.array().abs() >= least_rate).all();
+  const auto old = std::ranges::lower_bound(pushed_at_, time - lags * lag_step - longest_gap);
+  pushed_.erase(pushed_.begin(), pushed_.begin() + (old - pushed_at_.begin()));
+  pushed_at_.erase(pushed_at_.begin(), old);
+  is_clean_ = (samples_.front().measured.array().abs() >= least_rate).all();
 }
 
 Eigen::Vector3d DriveIdentification::momentum_per_mass(const Eigen::Vector3d& twist) const {
@@ -158,10 +177,10 @@ Eigen::Index DriveIdentification::columns() const {
 /// f of each interval, at its middle.
 std::vector<double> DriveIdentification::trapezoid() const {
   std::vector<double> f;
-  const double begin = samples_.front().time, end = samples_.back().time;
+  const double begin = samples_.front().time + aside, end = samples_.back().time - aside;
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
     const double middle = 0.5 * (samples_[i].time + samples_[i + 1].time);
-    f.push_back(std::min({1.0, (middle - begin) / ramp, (end - middle) / ramp}));
+    f.push_back(std::clamp(std::min(middle - begin, end - middle) / ramp, 0.0, 1.0));
   }
   return f;
 }
@@ -182,15 +201,67 @@ Eigen::VectorXd DriveIdentification::weights(const std::vector<double>& f, std::
          all.cwiseMax(0.0).sum() / rises * some.cwiseMax(0.0);
 }
 
+/// A rate behind a low pass has the old sign for a while after a wheel turned back.
+bool DriveIdentification::rolls_on_at_the_ends() const {
+  const Sample &first = samples_.front(), &last = samples_.back();
+  const auto later = [&](double time) {
+    return std::ranges::find_if(samples_, [&](const Sample& sample) { return sample.time >= time; });
+  };
+  const Sample &begun = *later(first.time + ramp), &near = *later(last.time - ramp);
+  return std::ranges::all_of(wheels_, [&](const Wheel& wheel) {
+    const double way = (last.q - first.q)(wheel.joint), least = least_rate * ramp;
+    const double sign = std::copysign(1.0, way);
+    return sign * (begun.q - first.q)(wheel.joint) >= least && sign * (last.q - near.q)(wheel.joint) >= least;
+  });
+}
+
+/// From samples on both sides, of the other parity: their noise is in X or in Z. Steps of encoders that
+/// follow each other are alike, and 20 ms have unlike ones.
+void DriveIdentification::take_rates() {
+  const std::size_t last = samples_.size() - 1;
+  const double period = (samples_[last].time - samples_[0].time) / static_cast<double>(last);
+  const auto steps = static_cast<std::size_t>(aside / period);
+  const std::size_t most = steps < 3 ? 1 : steps - (steps + 1) % 2;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Sample &before = samples_[i - std::min(i, most)], &after = samples_[std::min(i + most, last)];
+    for (std::size_t w = 0; w < wheels_.size(); ++w)
+      samples_[i].rates(static_cast<Eigen::Index>(w)) =
+          (after.q - before.q)(wheels_[w].joint) / (after.time - before.time);
+    samples_[i].twist = twist_of_ * samples_[i].rates;
+  }
+}
+
+Eigen::VectorXd DriveIdentification::impulse_until(double time) const {
+  const auto next = std::ranges::upper_bound(pushed_at_, time) - pushed_at_.begin();
+  const auto b = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(next, 1, static_cast<std::ptrdiff_t>(pushed_at_.size()) - 1));
+  const double part = (time - pushed_at_[b - 1]) / (pushed_at_[b] - pushed_at_[b - 1]);
+  return pushed_[b - 1] + part * (pushed_[b] - pushed_[b - 1]);
+}
+
+/// int f tau(t - lag) dt of all joints, for each lag.
+Eigen::MatrixXd DriveIdentification::impulses(const std::vector<double>& f) const {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(samples_.front().tau.size(), lags);
+  for (Eigen::Index lag = 0; lag < lags; ++lag) {
+    const double late = first_lag + static_cast<double>(lag) * lag_step;
+    Eigen::VectorXd before = impulse_until(samples_.front().time - late);
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const Eigen::VectorXd after = impulse_until(samples_[i + 1].time - late);
+      sums.col(lag) += f[i] * (after - before);
+      before = after;
+    }
+  }
+  return sums;
+}
+
 void DriveIdentification::end_window() {
+  take_rates();
   const std::vector<double> f = trapezoid();
-  Window sums{Eigen::VectorXd::Zero(samples_.front().tau.size()),
-              Eigen::VectorXd::Zero(samples_.front().q.size()), Eigen::Vector3d::Zero(), 0.0};
+  Window sums{impulses(f), Eigen::VectorXd::Zero(samples_.front().q.size()), Eigen::Vector3d::Zero(), 0.0};
   for (std::size_t i = 0; i < f.size(); ++i) {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     const double step = f[i] * (b.time - a.time);
     sums.seconds += step;
-    sums.impulse += step * a.tau;
     sums.angle += f[i] * (b.q - a.q);
     const Eigen::Vector3d mean = 0.5 * (a.twist + b.twist), p = momentum_per_mass(mean);
     sums.turned +=
@@ -218,20 +289,61 @@ void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& w
     // A line about the vertical has moments: as forces at an arm it counts as much as the others.
     const double scale = 1.0 / std::hypot(along.head<2>().norm(), along.z() * length_);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(columns());
+    Eigen::MatrixXd impulses(static_cast<Eigen::Index>(motors_.size()), lags);
     for (std::size_t m = 0; m < motors_.size(); ++m) {
       const Wheel& wheel = wheels_[motors_[m]];
       const double lever = along.dot(wheel.rates);
-      const double rate = samples_.back().rates(static_cast<Eigen::Index>(motors_[m]));
       const auto at = 3 * static_cast<Eigen::Index>(m);
-      row(at) = lever * sums.impulse(wheel.joint);
-      row(at + 1) = -lever * std::copysign(sums.seconds, rate);
+      impulses.row(static_cast<Eigen::Index>(m)) = scale * lever * sums.impulse.row(wheel.joint);
+      row(at + 1) = -lever * std::copysign(sums.seconds, sums.angle(wheel.joint));
       row(at + 2) = -lever * sums.angle(wheel.joint);
     }
+    lines.impulses.push_back(impulses);
     row(3 * static_cast<Eigen::Index>(motors_.size())) = -along.z() * twist_change.z();
     if (!mass_) row(columns() - 1) = -along.dot(change);
     lines.left.push_back(scale * row);
     lines.right.push_back(scale * along.dot(known));
   }
+}
+
+/// Between two lags the impulse is linear.
+DriveIdentification::Equations DriveIdentification::equations(double lag) const {
+  const auto count = static_cast<Eigen::Index>(even_.left.size());
+  const double place = (lag - first_lag) / lag_step;
+  const auto a = static_cast<Eigen::Index>(std::min<double>(place, lags - 2));
+  const double part = place - static_cast<double>(a);
+  Equations all{Eigen::MatrixXd(count, columns()), Eigen::MatrixXd(count, columns()), Eigen::VectorXd(count),
+                Eigen::VectorXd(count)};
+  const auto put = [&](const Lines& lines, Eigen::MatrixXd& left, Eigen::VectorXd& right) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      left.row(i) = lines.left[k];
+      right(i) = lines.right[k];
+      for (Eigen::Index m = 0; m < lines.impulses[k].rows(); ++m)
+        left(i, 3 * m) = (1.0 - part) * lines.impulses[k](m, a) + part * lines.impulses[k](m, a + 1);
+    }
+  };
+  put(even_, all.x, all.y_x);
+  put(odd_, all.z, all.y_z);
+  return all;
+}
+
+/// The vertex of the parabola through the least misfit and its neighbours.
+double DriveIdentification::find_lag() const {
+  std::vector<double> misfit;
+  for (int lag = 0; lag < lags; ++lag) {
+    const Equations all = equations(first_lag + lag * lag_step);
+    const Eigen::MatrixXd gram = all.z.transpose() * all.x + all.x.transpose() * all.z;
+    const Eigen::VectorXd b = gram.completeOrthogonalDecomposition().solve(all.z.transpose() * all.y_x +
+                                                                           all.x.transpose() * all.y_z);
+    misfit.push_back((all.y_x - all.x * b).dot(all.y_z - all.z * b));
+  }
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(misfit) - misfit.begin());
+  if (best == 0) return first_lag;
+  if (best + 1 == misfit.size())
+    throw NotIdentified("the samples come more than 60 ms after the torques that they are logged with");
+  const double left = misfit[best - 1] - misfit[best], right = misfit[best + 1] - misfit[best];
+  return first_lag + (static_cast<double>(best) + 0.5 * (left - right) / (left + right)) * lag_step;
 }
 
 Identification DriveIdentification::solve() const {
@@ -241,16 +353,9 @@ Identification DriveIdentification::solve() const {
                         " windows of 0.2 s in which all wheels "
                         "turn, of " +
                         std::to_string(fewest_windows) + " that are needed");
-  const auto lines = static_cast<Eigen::Index>(even_.left.size());
-  Eigen::MatrixXd x(lines, columns()), z(lines, columns());
-  Eigen::VectorXd y_x(lines), y_z(lines);
-  for (Eigen::Index i = 0; i < lines; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    x.row(i) = even_.left[k];
-    z.row(i) = odd_.left[k];
-    y_x(i) = even_.right[k];
-    y_z(i) = odd_.right[k];
-  }
+  const double lag = find_lag();
+  auto [x, z, y_x, y_z] = equations(lag);
+  const Eigen::Index lines = x.rows();
   const Eigen::VectorXd squares = x.cwiseProduct(z).colwise().sum();
   if (squares.minCoeff() <= 0.0)
     throw NotIdentified("too little motion: the base never turned, or a motor never pushed");
@@ -278,6 +383,7 @@ Identification DriveIdentification::solve() const {
   };
   Identification result;
   result.windows = windows;
+  result.lag = lag;
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     const auto at = 3 * static_cast<Eigen::Index>(m);
     result.motors.push_back({wheels_[motors_[m]].name, estimate(at), estimate(at + 1), estimate(at + 2)});
