@@ -124,6 +124,7 @@ ordered_json as_json(const runtime::Identification& found) {
   return {{"motors", motors},
           {"mass", pair_of(found.mass)},
           {"inertia", pair_of(found.inertia)},
+          {"lag", found.lag},
           {"windows", found.windows}};
 }
 
@@ -136,6 +137,9 @@ std::string as_text(const runtime::Identification& found) {
             figure({100.0 * motor.torque_factor.value, 100.0 * motor.torque_factor.error}, "%") +
             " of the torque it is told\n";
   }
+  if (found.lag > 1e-3)
+    text +=
+        "  the samples come " + digits(1e3 * found.lag) + " ms after the torques, which is reckoned with\n";
   if (found.mass.error > 0.0) text += "  mass " + figure(found.mass, "kg") + "\n";
   text += "  inertia about the vertical through the base's origin " + figure(found.inertia, "kg m^2") + "\n";
   return text;

@@ -83,6 +83,42 @@ TEST_F(DraftOfHabits, asks_for_the_mass_of_a_base_without_any) {
   EXPECT_EQ(said_of(filled).find("error"), std::string::npos) << said_of(filled);
 }
 
+// The body of .6 m x .4 m x .1 m is 24 dm^3, of foam 0.48 kg. A scanner beside it that weighs 0.3 kg does not
+// stand for it, nor does a battery, less than half as large each way. A frame without shape may.
+TEST_F(DraftOfHabits, asks_for_the_mass_of_a_body_that_only_its_parts_weigh_for) {
+  const std::string moments = "ixx='.002' iyy='.002' izz='.002'";
+  const auto with = [&](const std::string& body, const std::string& mass, const std::string& shape) {
+    const std::string part =
+        inertial_element(mass, moments) +
+        (shape.empty() ? "" : "<collision><geometry>" + shape + "</geometry></collision>");
+    std::string urdf = test::replaced(two_wheels_and(seen_from("part", part)), chassis(),
+                                      "<link name='chassis'>" + body + "</link>");
+    return this->draft(folder_.write("body.urdf", urdf));
+  };
+  const std::string box = "<collision><geometry><box size='.6 .4 .1'/></geometry></collision>";
+  const std::string mesh = "<visual><geometry><mesh filename='body.stl'/></geometry></visual>";
+  const std::string battery = "<box size='.29 .19 .05'/>", half = "<box size='.4 .3 .1'/>";
+  const auto asks = [](const std::optional<RobotDraft>& draft) {
+    return draft && draft->text.find("  chassis: {mass: FILL_IN, radius: ") != std::string::npos;
+  };
+  EXPECT_TRUE(asks(with(box, "0.3", "")));
+  EXPECT_TRUE(asks(with(box, "5", battery)));
+  EXPECT_FALSE(asks(with(box, "0.5", "")));
+  EXPECT_FALSE(asks(with(box, "5", half)));
+  EXPECT_FALSE(asks(with(box + inertial_element("0.3", moments), "5", battery)));
+  // Of a mesh nobody knows the size. Both wheels weigh 2 kg.
+  EXPECT_TRUE(asks(with(mesh, "1.9", battery)));
+  EXPECT_FALSE(asks(with(mesh, "2.1", battery)));
+
+  const auto draft = with(box, "0.3", battery);
+  EXPECT_NE(
+      std::ranges::find(draft->missing,
+                        "the mass of `chassis`, the body of the base: what is fixed to it weighs 0.3 kg"),
+      draft->missing.end());
+  EXPECT_EQ(draft->assumed.size(), 1U);
+  EXPECT_EQ(said_of(test::replaced(draft->text, "mass: FILL_IN", "mass: 20 kg")), "");
+}
+
 // 1 kg that lies e beside the axle of a wheel of 80 mm drives the base by e/80 mm of its weight. Of 22 kg
 // that is 1 % at 17.6 mm. A disc has its centre on the axle.
 TEST_F(DraftOfHabits, puts_the_centre_of_a_wheel_on_its_axle) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnostic/wordings_physics.hpp"
 #include "robot/adapt_urdf.hpp"
 #include "robot/draft_entries.hpp"
 #include "robot/possible_bodies.hpp"
@@ -42,20 +43,30 @@ class DraftBodies {
     for (UrdfJoint& joint : standing.joints) {
       if (is_listed(held, joint.joint.name)) hold(joint);
     }
+    const auto bare = bare_body(standing);
+    if (bare) add(bare->link), bodies_.back().beside = bare->beside;
     for (const ImpossibleBody& body : impossible_bodies(standing, found_.base)) {
+      if (bare && body.parts.front() == found_.base) continue;  // possible with that mass
       for (const std::string& part : body.parts) add(part);
     }
     return std::move(bodies_);
   }
 
  private:
+  std::optional<BareBody> bare_body(const Urdf& standing) const {
+    std::vector<std::string> links;
+    for (const DraftWheel& wheel : wheels_) links.push_back(wheel.link);
+    return find_bare_body(standing, found_.base, links);
+  }
+
   void add(const std::string& link) {
     const auto is_it = [&](const DraftBody& body) { return body.link == link; };
     if (std::any_of(bodies_.begin(), bodies_.end(), is_it)) return;
     const bool is_wheel = std::any_of(wheels_.begin(), wheels_.end(),
                                       [&](const DraftWheel& wheel) { return wheel.link == link; });
     const UrdfLink& drawn = *urdf_.find_link(link);
-    bodies_.push_back({link, !(drawn.inertia.mass > 0.0), is_wheel ? 0.0 : ball_radius(drawn)});
+    bodies_.push_back({link, !(drawn.inertia.mass > 0.0), is_wheel ? 0.0 : ball_radius(drawn),
+                       link == found_.base ? std::optional(0.0) : std::nullopt});
   }
 
   double moment_about(const std::string& joint, const UrdfLink& link) const {
@@ -132,8 +143,21 @@ bool share_mass(std::vector<DraftBody>& bodies, const std::vector<DraftWheel>& w
   return true;
 }
 
-std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base,
-                           const std::string& base_mass, const std::string& mass) {
+std::vector<std::string> missing_of_bodies(const std::vector<DraftBody>& bodies) {
+  std::vector<std::string> lines;
+  for (const DraftBody& body : bodies) {
+    if (body.lacks_mass && body.beside.value_or(0.0) > 0.0)
+      lines.push_back("the mass of `" + body.link + "`, the body of the base: what is fixed to it weighs " +
+                      wording::figure(*body.beside, "kg"));
+  }
+  std::string links;
+  for (const DraftBody& body : bodies) links += (links.empty() ? "`" : ", `") + body.link + "`";
+  if (!links.empty()) lines.push_back("inertias that a body can have, of links that move: " + links);
+  return lines;
+}
+
+std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base_mass,
+                           const std::string& mass) {
   if (bodies.empty()) return "";
   std::string text =
       "\n# Links to which the URDF gives no inertia, or one that no body has: a wheel counts as a solid "
@@ -142,7 +166,7 @@ std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::stri
       "inertias:\n";
   for (const DraftBody& body : bodies) {
     std::string keys;
-    if (body.lacks_mass) keys = "mass: " + (body.link == base ? base_mass : mass);
+    if (body.lacks_mass) keys = "mass: " + (body.beside ? base_mass : mass);
     if (body.radius > 0.0)
       keys += (keys.empty() ? "" : ", ") + std::string("radius: ") +
               in_millimetres(std::ceil(body.radius * 1e3) / 1e3);

@@ -1,6 +1,8 @@
 /// `inertias` of a first robot file: links whose inertia the URDF does not give, or gives as no body has it.
 #pragma once
 
+#include <optional>
+
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 
@@ -10,6 +12,7 @@ struct DraftBody {
   std::string link;
   bool lacks_mass = false;
   double radius = 0.0;  ///< [m] of a solid ball; 0: of a wheel, which counts as a disc of its own radius
+  std::optional<double> beside;  ///< [kg] of the base's body: all that is fixed to it
 };
 
 /// `open`: links behind moving joints without an inertia. `held`: joints that do not move. `outline`: of the
@@ -22,8 +25,11 @@ std::vector<DraftBody> find_draft_bodies(const Urdf& urdf, const FoundWheels& fo
 /// Whether all wheels with a motor lack a mass. It stands once in `each_wheel` then, and not at their links.
 bool share_mass(std::vector<DraftBody>& bodies, const std::vector<DraftWheel>& wheels);
 
+/// Lines of `missing`.
+std::vector<std::string> missing_of_bodies(const std::vector<DraftBody>& bodies);
+
 /// The section. Masses that the URDF does not give stand as `base_mass` of the base, else as `mass`.
-std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base,
-                           const std::string& base_mass, const std::string& mass);
+std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base_mass,
+                           const std::string& mass);
 
 }  // namespace zwang::lang

@@ -193,9 +193,7 @@ class Drafter {
       lines.push_back("the axis of `" + joint +
                       "`: without an <axis> it is 1 0 0; if it is another, add `axes: {" + joint +
                       ": [0, 1, 0]}`");
-    std::string links;
-    for (const DraftBody& body : bodies_) links += (links.empty() ? "`" : ", `") + body.link + "`";
-    if (!links.empty()) lines.push_back("inertias that a body can have, of links that move: " + links);
+    for (const std::string& line : missing_of_bodies(bodies_)) lines.push_back(line);
     if (urdf_.mass() > 0.0 && push() > floor_holds(urdf_.mass()))
       lines.push_back("the wheels' own torques: the URDF's press with " + wording::figure(push(), "N") +
                       ", and no floor holds that (W872); give `each_wheel: {effort: ..}`");
@@ -316,9 +314,9 @@ class Drafter {
           "\n# They stand on the ground and hold nothing.\nsupports: " + in_brackets(found_.supports) + "\n";
     text += each_joint(filling);
     text += effort_note + actuated(filling) + friction_note(urdf_, found_, held_);
-    text += inertias_entry(bodies_, found_.base, filling.base_mass, filling.mass) +
-            posture_entry(urdf_, folded_) + stop_entry(urdf_.mass(), deceleration_, filling.force) +
-            frames_.footprint(filling.footprint) + frames_.frames(filling.back);
+    text += inertias_entry(bodies_, filling.base_mass, filling.mass) + posture_entry(urdf_, folded_) +
+            stop_entry(urdf_.mass(), deceleration_, filling.force) + frames_.footprint(filling.footprint) +
+            frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"

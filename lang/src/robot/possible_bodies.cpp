@@ -82,7 +82,47 @@ wording::InertiaEntry entry_for(const RobotFile& file, const Urdf& urdf, const U
   return {link.name, !(link.inertia.mass > 0.0), !is_wheel};
 }
 
+/// [m^3] Of the box around what collides; 0: a mesh, or nothing.
+double box_volume(const UrdfLink& link) {
+  if (link.corners.empty()) return 0.0;
+  solver::Vector3 low = link.corners.front(), high = low;
+  for (const solver::Vector3& corner : link.corners) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
+  return (high - low).prod();
+}
+
+/// [kg/m^3] Packing foam. An empty box of 1 mm aluminium, .6 m x .4 m x .3 m, has twice that.
+constexpr double foam = 20.0;
+
+/// m < foam V, of all masses that may be the body's. A part that collides and is less than half as large each
+/// way, an eighth of V, has its mass for itself.
+bool is_lighter_than_foam(const std::vector<const UrdfLink*>& links, double volume) {
+  double mass = 0.0;
+  for (const UrdfLink* link : links) {
+    const double own = box_volume(*link);
+    if (own == 0.0 || own > volume / 8.0) mass += link->inertia.mass;
+  }
+  return mass < foam * volume;
+}
+
 }  // namespace
+
+std::optional<BareBody> find_bare_body(const Urdf& urdf, const std::string& base,
+                                       const std::vector<std::string>& wheels) {
+  const Lump lump = lump_of(urdf, base);
+  const double all = lump.inertia.mass;
+  if (!(all > 0.0)) return std::nullopt;  // an impossible body
+  const UrdfLink& largest =
+      **std::ranges::max_element(lump.links, {}, [](const UrdfLink* link) { return box_volume(*link); });
+  if (!(largest.inertia.mass > 0.0) && is_lighter_than_foam(lump.links, box_volume(largest)))
+    return BareBody{largest.name, all};
+  // A mesh has no size here. No robot is built lighter than the wheels that carry it.
+  const auto mesh = std::ranges::find_if(lump.links, &UrdfLink::has_mesh);
+  if (mesh == lump.links.end() || (*mesh)->inertia.mass > 0.0) return std::nullopt;
+  double rolling = 0.0;
+  for (const std::string& wheel : wheels) rolling += urdf.find_link(wheel)->inertia.mass;
+  if (!(all < rolling)) return std::nullopt;
+  return BareBody{(*mesh)->name, all};
+}
 
 std::vector<std::string> without_inertia(const Urdf& urdf) {
   std::vector<std::string> names;

@@ -1,6 +1,7 @@
 /// Bodies that a URDF lets move, and that cannot be as it has them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,15 @@ struct ImpossibleBody {
 };
 /// Of the base and of what moves below it, in the URDF's order.
 std::vector<ImpossibleBody> impossible_bodies(const Urdf& urdf, const std::string& base);
+
+/// The drawn body of the base, where the URDF gives it no mass and nothing fixed to it has that mass instead.
+struct BareBody {
+  std::string link;
+  double beside = 0.0;  ///< [kg] of all that is fixed to it
+};
+/// `wheels`: links of the wheels.
+std::optional<BareBody> find_bare_body(const Urdf& urdf, const std::string& base,
+                                       const std::vector<std::string>& wheels);
 
 /// E808, of every part at once.
 void check_bodies(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);

@@ -222,6 +222,19 @@ std::set<std::string> find_loops(const std::vector<XmlElement>& elements) {
   return links;
 }
 
+/// Links with a <mesh>.
+std::set<std::string> find_meshed(const std::vector<XmlElement>& elements) {
+  std::set<std::string> links;
+  for (const XmlElement& element : elements) {
+    if (element.name != "mesh") continue;
+    const XmlElement* above = &element;
+    while (above->name != "link" && above->parent > 0)
+      above = &elements[static_cast<std::size_t>(above->parent)];
+    if (const XmlAttribute* name = above->find("name")) links.insert(name->value);
+  }
+  return links;
+}
+
 /// Of links that move by themselves; what is fixed to another is judged with it.
 void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
   for (UrdfLink& link : urdf.links) {
@@ -242,6 +255,7 @@ auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
 
 void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>& elements,
                 const UrdfFindings& findings, Urdf& urdf) {
+  const std::set<std::string> meshed = find_meshed(elements);
   for (const auto& [name, link] : model.links_) {
     UrdfLink result;
     result.name = name;
@@ -249,6 +263,7 @@ void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>
     for (const auto& shape : link->collision_array) {
       if (shape && shape->geometry) add_corners(*shape->geometry, to_pose(shape->origin), result.corners);
     }
+    result.has_mesh = meshed.contains(name);
     find_round_shape(link->collision_array, result);
     if (!result.radius) find_round_shape(link->visual_array, result);
     if (link->inertial && !findings.weightless.contains(name))

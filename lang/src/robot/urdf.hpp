@@ -27,6 +27,7 @@ struct UrdfLink {
   std::optional<solver::Vector3> cylinder_axis;        ///< unit vector in the link, where that is a cylinder
   solver::Vector3 round_at = solver::Vector3::Zero();  ///< [m] in the link, the middle of that shape
   std::vector<solver::Vector3> corners;  ///< [m] in the link, of the shapes that collide; a mesh has none
+  bool has_mesh = false;                 ///< among its shapes, which has no size here
 };
 
 /// A <mimic>: another joint that this one follows.

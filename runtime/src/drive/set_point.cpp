@@ -24,10 +24,17 @@ solver::Range allowed(const AxisConstraint& constraint, const solver::RowSolutio
   return range;
 }
 
+/// [s] What the speeds lack of the age of T_c.
+double more_age(const lang::Drive& drive) noexcept {
+  return drive.integral_time ? std::max(0.0, drive.time_constant - drive.delay - 1.0 / drive.rate) : 0.0;
+}
+
 }  // namespace
 
-SetPoint::SetPoint(const lang::Drive& drive, const solver::Model& model)
-    : lead_(drive.time_constant + 0.5 * drive.delay + 0.5 / drive.rate),
+SetPoint::SetPoint(const lang::Drive& drive, const solver::Model& model, double period)
+    : lead_(drive.time_constant + 0.5 * drive.delay + 0.5 / drive.rate + more_age(drive)),
+      part_(period / (more_age(drive) + period)),
+      older_(Eigen::VectorXd::Zero(model.joint_count())),
       p_(Eigen::VectorXd::Zero(solver::FreeMotions(model).joint.cols())),
       change_(p_) {}
 
@@ -35,6 +42,9 @@ void SetPoint::put(const solver::Solver& solver, const solver::ConstraintSet& se
                    const solver::Solution& solution, const solver::FreeMotions& motions,
                    const Eigen::VectorXd& qd, Eigen::VectorXd& velocity) noexcept {
   const int m = motions.count;
+  if (!has_older_) older_ = qd;
+  has_older_ = true;
+  older_ += part_ * (qd - older_);
   change_.setZero();
   const std::vector<solver::Row>& rows = set.rows();
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -57,7 +67,7 @@ void SetPoint::put(const solver::Solver& solver, const solver::ConstraintSet& se
     }
   }
   for (Eigen::Index j = 0; j < velocity.size(); ++j)
-    velocity(j) = qd(j) + lead_ * (solution.qdd(j) + motions.joint.row(j).head(m).dot(change_.head(m)));
+    velocity(j) = older_(j) + lead_ * (solution.qdd(j) + motions.joint.row(j).head(m).dot(change_.head(m)));
 }
 
 }  // namespace zwang::runtime

@@ -14,12 +14,19 @@ namespace zwang::runtime {
 ///     t = T_c + delay/2 + 1/(2 rate).
 /// Blocked, the loop asks for m a at least, whatever t is: it rests on its torque limit.
 ///
+/// A loop that is told V hears of no speed that it should lose. So its integral adds an acceleration S with
+///     S' = a/T_i,
+/// and a driver of the time constant T swings: v'' + v'/T + (v - target)/(T T_i) = 0. Speeds that are older
+/// by d ask for the same ramp with  V = v(now - d) + (t + d) a.  A base that speeds up more than asked is
+/// told less by them. Samples are delay + 1/rate old as they act. A low pass adds what that lacks of T_c.
+///
 /// t is longer than some drivers' time constant, and an integral makes more of t a than a loop without one.
 /// So V stays inside the velocity ranges in force, and does not pass what a velocity driver asks for: the
 /// least change in kinetic energy, row by row. RowBounds keeps the accelerations.
 class SetPoint {
  public:
-  SetPoint(const lang::Drive& drive, const solver::Model& model);
+  /// `period`: from one call of `put` to the next [s].
+  SetPoint(const lang::Drive& drive, const solver::Model& model, double period);
 
   /// After `solver` has solved the rows of `set`; `motions` are those of its solution, `qd` the state's.
   /// Does not allocate, lock, throw or print.
@@ -31,6 +38,9 @@ class SetPoint {
 
  private:
   double lead_;
+  double part_;            ///< of the way from `older_` to the present rates, in one call; 1: all of it
+  Eigen::VectorXd older_;  ///< [rad/s] rates of the joints
+  bool has_older_ = false;
   Eigen::VectorXd p_;
   Eigen::VectorXd change_;  ///< of ydd
 };

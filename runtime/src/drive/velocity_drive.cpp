@@ -15,7 +15,7 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
       deceleration_(robot.stop.deceleration),
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
       row_bounds_(robot.model, row_capacity),
-      set_point_(robot.drive, robot.model),
+      set_point_(robot.drive, robot.model, period),
       radius_(footprint_radius(robot)),
       pressing_(limit_),
       measured_(robot.model) {

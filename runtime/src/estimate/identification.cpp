@@ -17,21 +17,23 @@
 // The lines are linear in each motor's torque factor k_i, dry friction c_i and viscous friction d_i. They are
 // linear in J, and in m where it is asked for.
 //
-// Measured rates are noisy, and a column that has noise is estimated too small by least squares: m and J
+// Rates are differences of positions: drivers often hand on rates behind a low pass. Samples may come late as
+// a whole, by l. Then the torques that belong to them were told by l before. Of all l up to 60 ms the one
+// counts with the least  sum (y_X - x b)(y_Z - z b)  of the lines below.
+//
+// Measured positions are noisy, and a column that has noise is estimated too small by least squares: m and J
 // stand before such columns. So the means are taken twice, of every other sample, X and Z. Their noise is not
 // correlated, and so it is in no product of both:
-//
-//   A = (Z'X + X'Z)/2,   b = A^-1 (Z'y_X + X'y_Z)/2,
-//   s = (z (y_X - x b) + x (y_Z - z b))/2 of each line,   covariance of b = A^-1 (sum s s') A^-1.
+// (instrumental_variables.hpp).
 //
 // A mass scales all of b but itself, so it is known, or a known load makes it so. A window in which a wheel
 // hardly turns, or a caster swings, is left out: their forces are not those of sliding friction.
 #include "zwang/runtime/identification.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/instrumental_variables.hpp"
 #include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::runtime {
@@ -42,9 +44,13 @@ constexpr double window = 0.2;        // [s]
 constexpr double ramp = 0.06;         // [s]
 constexpr double longest_gap = 0.05;  // [s] between records
 constexpr double least_rate = 0.3;    // [rad/s] of a wheel whose dry friction slides
+constexpr double aside = 0.01;        // [s] before and behind, where positions give a rate
+constexpr double lag_step = 1e-3;     // [s]
+constexpr double first_lag = -0.012;  // [s] of logs at 50 Hz: a record has the torque of its begin
+constexpr int lags = 73;              // up to 60 ms
 constexpr double most_swing = 0.3;    // [rad/s] of a caster
 constexpr std::size_t fewest_windows = 20;
-constexpr double most_condition = 1e5;  // of the columns at unit length
+constexpr double most_condition = 1e5;  // of unit columns: an inverse of A keeps six of sixteen digits
 constexpr double most_factor_error = 0.1;
 
 Eigen::Vector3d velocity_row(const Eigen::Vector3d& direction, const Eigen::Vector3d& at) {
@@ -59,23 +65,6 @@ void extend(std::vector<Eigen::Vector3d>& basis, const std::vector<Eigen::Vector
     for (const Eigen::Vector3d& unit : basis) left -= unit.dot(left) * unit;
     if (left.norm() > least * vector.norm()) basis.push_back(left.normalized());
   }
-}
-
-/// A = V D V'. Up to the most condition its inverse keeps six of sixteen digits. Noise that is larger than
-/// the motion makes an eigenvalue negative.
-Eigen::MatrixXd inverse_at_unit_columns(const Eigen::MatrixXd& A) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(A);
-  const Eigen::VectorXd& values = gram.eigenvalues();  // the least comes first
-  if (!(values(0) * most_condition * most_condition > values(values.size() - 1)))
-    throw NotIdentified(
-        "too little variety: friction, torque and mass cannot be told apart. Drive ahead, back and "
-        "turn at unlike speeds, as the task `identify` does");
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(A.rows(), A.cols());
-  for (Eigen::Index n = 0; n < values.size(); ++n) {
-    const Eigen::VectorXd v = gram.eigenvectors().col(n);
-    inverse += v * v.transpose() / values(n);
-  }
-  return inverse;
 }
 
 }  // namespace
@@ -164,28 +153,37 @@ void DriveIdentification::permit(const std::vector<Eigen::Vector3d>& held) {
 
 void DriveIdentification::begin_run(double added_load) {
   samples_.clear();
+  pushed_at_.clear();
+  pushed_.clear();
   added_load_ = added_load;
 }
 
 void DriveIdentification::add(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
                               const Eigen::VectorXd& tau) {
-  Sample now{time, Eigen::VectorXd(static_cast<Eigen::Index>(wheels_.size())), Eigen::Vector3d::Zero(), q,
-             tau};
+  if (!samples_.empty() && !(time > samples_.back().time)) return;
+  const auto count = static_cast<Eigen::Index>(wheels_.size());
+  Sample now{time, Eigen::VectorXd(count), Eigen::VectorXd(count), {}, q, tau};
   for (std::size_t i = 0; i < wheels_.size(); ++i)
-    now.rates(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
-  for (std::size_t i = 0; i < wheels_.size(); ++i)
-    now.twist += wheels_[i].twist * now.rates(static_cast<Eigen::Index>(i));
-  if (!samples_.empty() && time - samples_.back().time > longest_gap) samples_.clear();
+    now.measured(static_cast<Eigen::Index>(i)) = qd(wheels_[i].joint);
+  if (!samples_.empty() && time - samples_.back().time > longest_gap) begin_run(added_load_);
+  const double since = samples_.empty() ? 0.0 : time - samples_.back().time;
+  pushed_.push_back(samples_.empty() ? Eigen::VectorXd::Zero(tau.size())
+                                     : Eigen::VectorXd(pushed_.back() + since * samples_.back().tau));
+  pushed_at_.push_back(time);
   if (samples_.empty()) is_clean_ = true;
   samples_.push_back(std::move(now));
-  const Eigen::VectorXd& rates = samples_.back().rates;
+  const Eigen::VectorXd& rates = samples_.back().measured;
   is_clean_ = is_clean_ && (rates.array().abs() >= least_rate).all() &&
-              (rates.array() * samples_.front().rates.array() > 0.0).all();
+              (rates.array() * samples_.front().measured.array() > 0.0).all();
   for (const int swivel : swivels_) is_clean_ = is_clean_ && std::abs(qd(swivel)) <= most_swing;
   if (time - samples_.front().time < window - 1e-9) return;
-  if (is_clean_) end_window();
+  if (is_clean_ && rolls_on_at_the_ends() && samples_.front().time - pushed_at_.front() >= lags * lag_step)
+    end_window();
   samples_.erase(samples_.begin(), samples_.end() - 1);
-  is_clean_ = (samples_.front().rates.array().abs() >= least_rate).all();
+  const auto old = std::ranges::lower_bound(pushed_at_, time - lags * lag_step - longest_gap);
+  pushed_.erase(pushed_.begin(), pushed_.begin() + (old - pushed_at_.begin()));
+  pushed_at_.erase(pushed_at_.begin(), old);
+  is_clean_ = (samples_.front().measured.array().abs() >= least_rate).all();
 }
 
 Eigen::Vector3d DriveIdentification::momentum_per_mass(const Eigen::Vector3d& twist) const {
@@ -201,10 +199,10 @@ Eigen::Index DriveIdentification::columns() const {
 /// f of each interval, at its middle.
 std::vector<double> DriveIdentification::trapezoid() const {
   std::vector<double> f;
-  const double begin = samples_.front().time, end = samples_.back().time;
+  const double begin = samples_.front().time + aside, end = samples_.back().time - aside;
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
     const double middle = 0.5 * (samples_[i].time + samples_[i + 1].time);
-    f.push_back(std::min({1.0, (middle - begin) / ramp, (end - middle) / ramp}));
+    f.push_back(std::clamp(std::min(middle - begin, end - middle) / ramp, 0.0, 1.0));
   }
   return f;
 }
@@ -225,15 +223,69 @@ Eigen::VectorXd DriveIdentification::weights(const std::vector<double>& f, std::
          all.cwiseMax(0.0).sum() / rises * some.cwiseMax(0.0);
 }
 
+/// A rate behind a low pass has the old sign for a while after a wheel turned back.
+bool DriveIdentification::rolls_on_at_the_ends() const {
+  const Sample &first = samples_.front(), &last = samples_.back();
+  const auto later = [&](double time) {
+    return std::ranges::find_if(samples_, [&](const Sample& sample) { return sample.time >= time; });
+  };
+  const Sample &begun = *later(first.time + ramp), &near = *later(last.time - ramp);
+  return std::ranges::all_of(wheels_, [&](const Wheel& wheel) {
+    const double way = (last.q - first.q)(wheel.joint), least = least_rate * ramp;
+    const double sign = std::copysign(1.0, way);
+    return sign * (begun.q - first.q)(wheel.joint) >= least && sign * (last.q - near.q)(wheel.joint) >= least;
+  });
+}
+
+/// From samples on both sides, of the other parity: their noise is in X or in Z. Steps of encoders that
+/// follow each other are alike, and 20 ms have unlike ones.
+void DriveIdentification::take_rates() {
+  const std::size_t last = samples_.size() - 1;
+  const double period = (samples_[last].time - samples_[0].time) / static_cast<double>(last);
+  const auto steps = static_cast<std::size_t>(aside / period);
+  const std::size_t most = steps < 3 ? 1 : steps - (steps + 1) % 2;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Sample &before = samples_[i - std::min(i, most)], &after = samples_[std::min(i + most, last)];
+    for (std::size_t w = 0; w < wheels_.size(); ++w)
+      samples_[i].rates(static_cast<Eigen::Index>(w)) =
+          (after.q - before.q)(wheels_[w].joint) / (after.time - before.time);
+    samples_[i].twist = Eigen::Vector3d::Zero();
+    for (std::size_t w = 0; w < wheels_.size(); ++w)
+      samples_[i].twist += wheels_[w].twist * samples_[i].rates(static_cast<Eigen::Index>(w));
+  }
+}
+
+Eigen::VectorXd DriveIdentification::impulse_until(double time) const {
+  const auto next = std::ranges::upper_bound(pushed_at_, time) - pushed_at_.begin();
+  const auto b = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(next, 1, static_cast<std::ptrdiff_t>(pushed_at_.size()) - 1));
+  const double part = (time - pushed_at_[b - 1]) / (pushed_at_[b] - pushed_at_[b - 1]);
+  return pushed_[b - 1] + part * (pushed_[b] - pushed_[b - 1]);
+}
+
+/// int f tau(t - lag) dt of all joints, for each lag.
+Eigen::MatrixXd DriveIdentification::impulses(const std::vector<double>& f) const {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(samples_.front().tau.size(), lags);
+  for (Eigen::Index lag = 0; lag < lags; ++lag) {
+    const double late = first_lag + static_cast<double>(lag) * lag_step;
+    Eigen::VectorXd before = impulse_until(samples_.front().time - late);
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const Eigen::VectorXd after = impulse_until(samples_[i + 1].time - late);
+      sums.col(lag) += f[i] * (after - before);
+      before = after;
+    }
+  }
+  return sums;
+}
+
 void DriveIdentification::end_window() {
+  take_rates();
   const std::vector<double> f = trapezoid();
-  Window sums{Eigen::VectorXd::Zero(samples_.front().tau.size()),
-              Eigen::VectorXd::Zero(samples_.front().q.size()), Eigen::Vector3d::Zero(), 0.0};
+  Window sums{impulses(f), Eigen::VectorXd::Zero(samples_.front().q.size()), Eigen::Vector3d::Zero(), 0.0};
   for (std::size_t i = 0; i < f.size(); ++i) {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     const double step = f[i] * (b.time - a.time);
     sums.seconds += step;
-    sums.impulse += step * a.tau;
     sums.angle += f[i] * (b.q - a.q);
     const Eigen::Vector3d mean = 0.5 * (a.twist + b.twist), p = momentum_per_mass(mean);
     sums.turned +=
@@ -260,20 +312,51 @@ void DriveIdentification::add_lines(const Window& sums, const Eigen::VectorXd& w
     // A line about the vertical has moments: as forces at an arm it counts as much as the others.
     const double scale = 1.0 / std::hypot(along.head<2>().norm(), along.z() * length_);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(columns());
+    Eigen::MatrixXd impulses(static_cast<Eigen::Index>(motors_.size()), lags);
     for (std::size_t m = 0; m < motors_.size(); ++m) {
       const Wheel& wheel = wheels_[motors_[m]];
       const double lever = along.dot(wheel.rates);
-      const double rate = samples_.back().rates(static_cast<Eigen::Index>(motors_[m]));
       const auto at = 3 * static_cast<Eigen::Index>(m);
-      row(at) = lever * sums.impulse(wheel.joint);
-      row(at + 1) = -lever * std::copysign(sums.seconds, rate);
+      impulses.row(static_cast<Eigen::Index>(m)) = scale * lever * sums.impulse.row(wheel.joint);
+      row(at + 1) = -lever * std::copysign(sums.seconds, sums.angle(wheel.joint));
       row(at + 2) = -lever * sums.angle(wheel.joint);
     }
+    lines.impulses.push_back(impulses);
     row(3 * static_cast<Eigen::Index>(motors_.size())) = -along.z() * twist_change.z();
     if (!mass_) row(columns() - 1) = -along.dot(change);
     lines.left.push_back(scale * row);
     lines.right.push_back(scale * along.dot(known));
   }
+}
+
+/// Between two lags the impulse is linear.
+TwinLines DriveIdentification::lines_at(double lag) const {
+  const double place = (lag - first_lag) / lag_step;
+  const auto a = static_cast<Eigen::Index>(std::min<double>(place, lags - 2));
+  const double part = place - static_cast<double>(a);
+  const auto rows_of = [&](const Lines& lines) {
+    std::vector<Eigen::VectorXd> rows = lines.left;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const Eigen::MatrixXd& impulses = lines.impulses[k];
+      for (Eigen::Index m = 0; m < impulses.rows(); ++m)
+        rows[k](3 * m) = (1.0 - part) * impulses(m, a) + part * impulses(m, a + 1);
+    }
+    return rows;
+  };
+  return {rows_of(even_), rows_of(odd_), even_.right, odd_.right};
+}
+
+/// The vertex of the parabola through the least misfit and its neighbours.
+double DriveIdentification::find_lag() const {
+  std::vector<double> misfit;
+  for (int lag = 0; lag < lags; ++lag)
+    misfit.push_back(InstrumentalVariables(lines_at(first_lag + lag * lag_step)).misfit());
+  const auto best = static_cast<std::size_t>(std::ranges::min_element(misfit) - misfit.begin());
+  if (best == 0) return first_lag;
+  if (best + 1 == misfit.size())
+    throw NotIdentified("the samples come more than 60 ms after the torques that they are logged with");
+  const double left = misfit[best - 1] - misfit[best], right = misfit[best + 1] - misfit[best];
+  return first_lag + (static_cast<double>(best) + 0.5 * (left - right) / (left + right)) * lag_step;
 }
 
 Identification DriveIdentification::solve() const {
@@ -283,36 +366,18 @@ Identification DriveIdentification::solve() const {
                         " windows of 0.2 s in which all wheels "
                         "turn, of " +
                         std::to_string(fewest_windows) + " that are needed");
-  const std::size_t lines = even_.left.size();
-  const Eigen::Index size = columns();
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(size);
-  for (std::size_t i = 0; i < lines; ++i) squares += even_.left[i].cwiseProduct(odd_.left[i]);
-  if (squares.minCoeff() <= 0.0)
+  const double lag = find_lag();
+  const InstrumentalVariables found(lines_at(lag));
+  if (found.lacks_a_column())
     throw NotIdentified("too little motion: the base never turned, or a motor never pushed");
-  const Eigen::VectorXd norms = squares.cwiseSqrt();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
-  for (std::size_t i = 0; i < lines; ++i) {
-    const Eigen::VectorXd x = even_.left[i].cwiseQuotient(norms), z = odd_.left[i].cwiseQuotient(norms);
-    A += 0.5 * (z * x.transpose() + x * z.transpose());
-    right += 0.5 * (even_.right[i] * z + odd_.right[i] * x);
-  }
-  const Eigen::MatrixXd inverse = inverse_at_unit_columns(A);
-  const Eigen::VectorXd scaled = inverse * right;
-  Eigen::VectorXd variances = Eigen::VectorXd::Zero(size);
-  for (std::size_t i = 0; i < lines; ++i) {
-    const Eigen::VectorXd x = even_.left[i].cwiseQuotient(norms), z = odd_.left[i].cwiseQuotient(norms);
-    const double off_x = even_.right[i] - x.dot(scaled), off_z = odd_.right[i] - z.dot(scaled);
-    const Eigen::VectorXd moved = inverse * (0.5 * (off_x * z + off_z * x));  // A^-1 s
-    variances += moved.cwiseAbs2();
-  }
-  variances *=
-      static_cast<double>(lines) / std::max(1.0, static_cast<double>(lines) - static_cast<double>(size));
-  const auto estimate = [&](Eigen::Index n) {
-    return Estimate{scaled(n) / norms(n), std::sqrt(variances(n)) / norms(n)};
-  };
+  if (!(found.condition() < most_condition * most_condition))
+    throw NotIdentified(
+        "too little variety: friction, torque and mass cannot be told apart. Drive ahead, back and "
+        "turn at unlike speeds, as the task `identify` does");
+  const auto estimate = [&](Eigen::Index n) { return Estimate{found.values()(n), found.errors()(n)}; };
   Identification result;
   result.windows = windows;
+  result.lag = lag;
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     const auto at = 3 * static_cast<Eigen::Index>(m);
     result.motors.push_back({wheels_[motors_[m]].name, estimate(at), estimate(at + 1), estimate(at + 2)});
