@@ -196,6 +196,7 @@ Diagnostics said_about(ExcerptOf part, std::string_view excerpt, bool with_notes
   const test::Folder folder;
   const fs::path robots = test::source_dir / "tests/conformance/robots";
   folder.write("robots/mini.yaml", test::slurp(robots / "mini.yaml"));
+  folder.write("robots/mini_rubs.yaml", test::slurp(robots / "mini_rubs.yaml"));
   folder.write("robots/mini.urdf", test::slurp(robots / "mini.urdf"));
   Diagnostics diagnostics;
   switch (part) {

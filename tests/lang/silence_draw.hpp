@@ -73,5 +73,7 @@ struct Kind {
 std::vector<Kind> kinds_of_places();
 /// Those of drivers that something else in the file holds back.
 std::vector<Kind> kinds_of_drivers();
+/// Those of ways that end before the exit.
+std::vector<Kind> kinds_of_ways();
 
 }  // namespace zwang::lang::silence

@@ -285,6 +285,7 @@ const std::vector<Kind>& kinds() {
     };
     for (Kind& kind : kinds_of_places()) some.push_back(std::move(kind));
     for (Kind& kind : kinds_of_drivers()) some.push_back(std::move(kind));
+    for (Kind& kind : kinds_of_ways()) some.push_back(std::move(kind));
     return some;
   }();
   return all;
@@ -310,7 +311,7 @@ class Silence : public testing::Test {
     return all;
   }
 
-  static int count() { return zwang::test::is_long() ? 300 : 84; }
+  static int count() { return zwang::test::is_long() ? 342 : 114; }
 
   test::Folder folder_;
 };

@@ -69,6 +69,11 @@ Diagnostic dead_band_not_held(const Span& span, const std::string& axis, bool tu
                               const BandNotHeld& band) {
   const std::string unit = axis_units(turns).force;
   const std::string wide = figure(band.dead_band, unit), held = figure(band.held, unit);
+  if (band.is_of_motors)
+    return warning("W647", span,
+                   "`" + axis + "` does not stand inside its dead band of " + wide + ": the motors hold " +
+                       held + ", and a harder push moves it undamped",
+                   "write `dead_band: " + held + "` or less");
   const std::string narrow = band.held > 0.0 ? ", or `dead_band: " + held + "`" : "";
   return with_related(warning("W647", span,
                               "`" + axis + "` does not stand inside its dead band of " + wide +

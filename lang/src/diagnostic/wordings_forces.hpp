@@ -30,8 +30,9 @@ Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ring
 /// A yield with a force range below its dead band. [N] or [N m]
 struct BandNotHeld {
   double dead_band = 0.0;
-  double held = 0.0;  ///< by the force range
+  double held = 0.0;  ///< by the force range, or by the motors
   Span dead_band_span;
+  bool is_of_motors = false;
 };
 Diagnostic dead_band_not_held(const Span& span, const std::string& axis, bool turns, const BandNotHeld& band);
 

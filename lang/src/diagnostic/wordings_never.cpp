@@ -268,7 +268,8 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
         "; to press harder allow an acceleration of `" + figure(u.bound / u.mass, unit.acceleration) + "`";
   }
   const std::string from =
-      !u.sum.empty() ? "`" + u.sum + "` bounds the sum of all forces"
+      u.by_motors      ? "what the motors make"
+      : !u.sum.empty() ? "`" + u.sum + "` bounds the sum of all forces"
       : u.velocity != 0.0 && !limit.exists()
           ? figure(u.mass, unit.mass) + " x " + figure(std::abs(u.velocity), unit.speed) + " / " +
                 figure(u.time_constant, "s")

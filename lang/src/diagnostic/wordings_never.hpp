@@ -98,6 +98,7 @@ struct Unreached {
   double velocity = 0.0;       ///< of a velocity driver
   double time_constant = 0.0;  ///< [s]
   double enough = 0.0;         ///< a time constant with which it reaches the bound [s]; 0: none does
+  bool by_motors = false;      ///< they make no more than `pressed`
   std::string sum;             ///< a path that bounds the sum of all forces to `pressed`; empty: none
 };
 /// `limit`: where the acceleration is limited; may be nowhere.

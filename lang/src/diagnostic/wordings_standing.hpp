@@ -165,8 +165,11 @@ struct TooFast {
   double wheel_most = 0.0;        ///< [rad/s]
   bool is_range = false;          ///< it is allowed, not asked for
   bool in_any_direction = false;  ///< `most` is that of the best one
+  bool slides = false;            ///< the joint: its limit is in [m/s]
 };
 Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel);
+/// Of an arm: `fast.wheel` is the joint that adds most.
+Diagnostic beyond_the_joints(const Span& span, const TooFast& fast, const Span& joint);
 
 /// `most` 0: it leads back; else so many files are too many.
 Diagnostic based_on_itself(const Span& span, const std::string& file, int most);

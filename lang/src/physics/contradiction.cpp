@@ -7,8 +7,9 @@
 // Regions in force leave a range of each position (confined.hpp). Two points of one base are at most as far
 // apart as they are on it, whatever its heading. No acceleration is above what the motors make, F / m.
 //
-// Two axes are one where their rows are alike, or opposite; positions also count from the same origin.
-// W402 tells of a driver beside a range of `always` with the same words for frames and axis.
+// Two axes are one where their rows are alike, or opposite; positions also count from the same origin. In the
+// task that starts the run, velocities count along axes of the world and of the base that are one at its
+// heading. W402 tells of a driver beside a range of `always` with the same words for frames and axis.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "physics/confined.hpp"
+#include "physics/kept_heading.hpp"
 
 namespace zwang::lang {
 
@@ -68,11 +70,16 @@ bool is_told_already(const PlannedAxis& axis, const PlannedAxis& limit, Quantity
 }
 
 /// Whether the two exclude each other.
-bool compare_ranges(const PlannedAxis& axis, const PlannedAxis& earlier, Quantity quantity, Probe& probe,
-                    Remarks& remarks) {
+bool compare_ranges(const PlannedTask& plan, const PlannedAxis& axis, const PlannedAxis& earlier,
+                    Quantity quantity, bool is_start, Probe& probe, Remarks& remarks) {
   if (!axis[quantity] || !earlier[quantity] || !may_exclude(*axis[quantity], *earlier[quantity]))
     return false;
-  const std::optional<Range> other = seen_along(axis, earlier, quantity, probe);
+  std::optional<Range> other = seen_along(axis, earlier, quantity, probe);
+  const bool is_fixed = is_start && quantity == Quantity::velocity && axis.is_placed && earlier.is_placed &&
+                        !axis.is_set && !earlier.is_set && !axis.is_on_path && !earlier.is_on_path;
+  const int sign = !other && is_fixed ? aligned_at_start(plan, axis, earlier, probe) : 0;
+  const Range& seen = *earlier[quantity];
+  if (sign != 0) other = sign > 0 ? seen : Range{-seen.high, -seen.low};
   const Range& own = *axis[quantity];
   if (!other || (own.low <= other->high && other->low <= own.high)) return false;
   // The robot file's limit is told at the task's range.
@@ -124,10 +131,10 @@ void compare_pushes(const PlannedAxis& axis, const PlannedAxis& earlier, Probe& 
 }
 
 /// One cause, one message: where many ranges exclude each other, the first pair is told.
-void ask_ranges(const PlannedTask& plan, Quantity quantity, Probe& probe, Remarks& remarks) {
+void ask_ranges(const PlannedTask& plan, Quantity quantity, bool is_start, Probe& probe, Remarks& remarks) {
   for (std::size_t i = 0; i < plan.axes.size() && !probe.is_exhausted(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (compare_ranges(plan.axes[i], plan.axes[j], quantity, probe, remarks)) return;
+      if (compare_ranges(plan, plan.axes[i], plan.axes[j], quantity, is_start, probe, remarks)) return;
     }
   }
 }
@@ -249,7 +256,8 @@ void ask_places(const CheckContext& context, const PlannedTask& plan, const Robo
 }  // namespace
 
 void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
-  for (const solver::Quantity quantity : quantities) ask_ranges(plan, quantity, probe, remarks);
+  const bool is_start = plan.task != nullptr && plan.task->name.text == context.file.start.text;
+  for (const solver::Quantity quantity : quantities) ask_ranges(plan, quantity, is_start, probe, remarks);
   ask_places(context, plan, probe.robot(), remarks);
   for (const PlannedAxis& axis : plan.axes) compare_with_motors(axis, probe, remarks);
   for (const PlannedAxis& axis : plan.axes) {

@@ -11,15 +11,13 @@
 #include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_outputs.hpp"
 #include "physics/known_number.hpp"
+#include "physics/known_signal.hpp"
 #include "physics/measured_number.hpp"
 #include "physics/questions.hpp"
 #include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
-namespace {
-
-/// Whether the scene moves the base: what a range keeps, somebody may break.
 bool pushes_the_base(const std::optional<Scene>& scene) {
   if (!scene) return false;
   const auto is_driven = [](const SceneObject& object) {
@@ -29,6 +27,8 @@ bool pushes_the_base(const std::optional<Scene>& scene) {
   return !scene->pushes.empty() || !scene->robots.empty() || !scene->faults.empty() ||
          std::any_of(scene->objects.begin(), scene->objects.end(), is_driven);
 }
+
+namespace {
 
 class ExitQuestion {
  public:

@@ -14,7 +14,7 @@
 // into its bound, so that guard is not dead.
 //
 // W619: less than half of the range is pressed. Up to twice what is made, a range is taken for a rounded
-// bound.
+// bound. A yield and `build_up` push as hard as the motors make, the latter within the acceleration ranges.
 //
 // N619: the demand of a position grows with the distance, so that its range is a bound for bases of any mass.
 // If an acceleration limit bounds the demand, N619 is written.
@@ -134,10 +134,44 @@ void ask_without_range(const CheckContext& context, const PlannedTask& plan, con
       *guard, {axis.path, axis.turns(), figures.mass, b, figures.mass * b, figures.force}, figures.force));
 }
 
+/// Of a driver that pushes ever harder: what stops it below its range.
+void ask_motors(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
+                Remarks& remarks) {
+  const solver::Range& range = *axis[solver::Quantity::force];
+  const double side = !axis.is_yield && axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
+  const double bound = axis.is_yield || !axis.target ? std::max(range.high, -range.low)
+                       : side > 0.0                  ? range.high
+                                                     : -range.low;
+  const AccelerationLimit limit =
+      axis.is_yield ? AccelerationLimit{} : acceleration_limit(plan, axis, side, true);
+  double motors = 0.0;
+  for (const double force : figures.forces) motors = std::max(motors, force);
+  const double allowed = figures.mass * limit.most;
+  const double pressed = std::min(motors, allowed);
+  if (!(pressed > 0.0) || !(pressed < generous * bound) || remarks.any_at(axis.span(solver::Quantity::force)))
+    return;
+  wording::Unreached unreached{axis.path, axis.turns(), figures.mass, limit.most, pressed, bound};
+  unreached.by_motors = motors <= allowed;
+  remarks.add(wording::never_reached(
+      axis.span(solver::Quantity::force), unreached,
+      unreached.by_motors ? Span{} : limit.from->span(solver::Quantity::acceleration)));
+}
+
+bool pushes_ever_harder(const PlannedAxis& axis, const Drive& drive) {
+  return axis[solver::Quantity::force] && !drive.takes_velocity &&
+         (axis.is_yield || (axis.build_up && axis.drives_motion())) && axis.text != nullptr && !axis.is_soft;
+}
+
 }  // namespace
 
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
+    if (pushes_ever_harder(axis, context.robot->drive)) {
+      const AxisFigures* figures = probe.figures(axis);
+      if (figures != nullptr && figures->is_reachable && std::isfinite(figures->mass))
+        ask_motors(plan, axis, *figures, remarks);
+      continue;
+    }
     // An integral (`build_up`) reaches the force range in time.
     const bool is_asked = axis.drives_motion() && axis.text != nullptr && !axis.is_soft &&
                           axis.time_constant > 0.0 && !axis.text->build_up;

@@ -2,28 +2,33 @@
 //
 //   measured                    lies within
 //   group.axis.position         the ranges of positions on that axis, and the regions in force; in the
-//                               first task s0 +- v t, too
-//   a distance                  in the first task s0 +- v t, too
+//                               first task s0 +- v t, too, also along a path
+//   a distance                  in the first task s0 +- v t, too, and no less than the regions leave
 //   group.axis.velocity         the ranges of velocities on it, and the speed of velocity drivers
 //   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
 //   speed(frame)                what `speed` and the ranges of the base's axes leave, and what velocity
 //                               drivers give
 //   moved(frame)                that speed, or that of velocity drivers, times the time t until the latest
-//                               end of the task; on a straight way no longer than the region in force
-//   turned(frame)               the turning speed times the time
+//                               end of the task; on a straight way no longer than the region in force; in
+//                               the first task the way to the drivers' places
+//   turned(frame)               the turning speed times the time; in the first task the turn to its place
 //   elapsed, since(own task)    that time
-//   entries(task)               1 where no way leads back to it, 0 where none leads from it to this task
+//   entries(task)               its `attempts`; 1 where no way leads back to it, 0 where none leads from it
+//   to
+//                               this task
 //   since(task)                 nothing where no way leads from it to this task
 //   an output                   its start, and each value that the file sets it to
-//   a signal of the scene       what its hinge or slide leaves it, and a force no less than its bias; five
-//                               standard deviations more either way
+//   a signal of the scene       known_signal.cpp
 //
 // A condition that also asks for `elapsed < t` has t in the place of the time.
 #include "physics/known_number.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "physics/driven_way.hpp"
+#include "physics/known_signal.hpp"
 #include "physics/left_behind.hpp"
 #include "physics/measured_number.hpp"
 #include "zwang/lang/condition_function.hpp"
@@ -42,63 +47,7 @@ std::string parameter_of(const PlannedAxis& axis, solver::Quantity quantity) {
   return "";
 }
 
-Known known_output(const CheckContext& context, int index) {
-  const Output& output = context.symbols.outputs[static_cast<std::size_t>(index)].output;
-  Known known{{output.start, output.start}, output.name, output.span, true, index};
-  for (const ValueText* value : values_set(context, output.name)) {
-    const std::optional<bool> truth = truth_of(*value);
-    if (!truth && value->kind != ValueKind::quantity) return {};
-    const double given = truth ? (*truth ? 1.0 : 0.0) : value->quantity.value;
-    known.bounds.low = std::min(known.bounds.low, given);
-    known.bounds.high = std::max(known.bounds.high, given);
-  }
-  return known;
-}
-
-/// How far an object's guide lets it go, as the signal measures it.
-Known known_travel(const SceneSignal& source, const SceneObject& object, double noise) {
-  const Guide& guide = *object.guide;
-  Known known{
-      {guide.lower - noise, guide.upper + noise}, "the range of `" + object.name + "`", object.span, true};
-  if (!source.beyond) return known;
-  const bool is_reached =
-      *source.beyond < 0.0 ? guide.lower <= *source.beyond : guide.upper >= *source.beyond;
-  known.bounds = {0.0, is_reached ? 1.0 : 0.0};
-  return known;
-}
-
-/// Of an object that its guide holds, or of a force between two that touch.
-Known known_signal(const std::string& name, const std::optional<Scene>& scene) {
-  constexpr double most_deviations = 5.0;  // of a normal noise, once in a million samples
-  if (!scene) return {};
-  const auto at = std::find_if(scene->signals.begin(), scene->signals.end(),
-                               [&](const SceneSignal& source) { return source.name == name; });
-  if (at == scene->signals.end() || at->object < 0) return {};
-  const auto k = static_cast<std::size_t>(at->object);
-  const double noise = most_deviations * std::max(at->noise, at->angle_noise);
-  const bool is_object = k < scene->objects.size();
-  if (at->kind == SceneSignalKind::travel && is_object && scene->objects[k].guide)
-    return known_travel(*at, scene->objects[k], noise);
-  if (at->kind != SceneSignalKind::force || at->beyond) return {};
-  return {{std::min(0.0, at->bias) - noise, solver::infinity}, "a push of two that touch", at->span, true};
-}
-
 }  // namespace
-
-std::vector<const ValueText*> values_set(const CheckContext& context, const std::string& output) {
-  std::vector<const ValueText*> values;
-  const auto gather = [&](const std::vector<SetText>& sets) {
-    for (const SetText& set : sets) {
-      if (set.kind == SetKind::output && set.name.text == output) values.push_back(&set.value);
-    }
-  };
-  for (const ExitText& exit : context.file.always_exits) gather(exit.set);
-  for (const TaskText& task : context.file.tasks) {
-    gather(task.set_on_entry);
-    for (const ExitText& exit : task.exits) gather(exit.set);
-  }
-  return values;
-}
 
 KnownNumbers::KnownNumbers(const CheckContext& context, const PlannedTask& plan, const AllTasks& all,
                            Probe& probe)
@@ -166,7 +115,7 @@ Known KnownNumbers::of(const ExpressionNode& node) {
       return known_output(context_, node.index);
     case Op::signal:
       return known_signal(context_.symbols.signals[static_cast<std::size_t>(node.index)].signal.name,
-                          all_.scene);
+                          all_.scene, probe_.robot());
     default:
       return {};
   }
@@ -195,16 +144,28 @@ Known KnownNumbers::known_way(const ExpressionNode& node) {
     const double longest = longest_way(region, plan_, probe_, is_first_);
     if (longest < known.bounds.high) known = {{0.0, longest}, region.path, region.span};
   }
+  if (is_first_) limit_to(known, way_to_places(plan_, place_of(context_, node.index).frame, probe_));
   return known;
+}
+
+void KnownNumbers::limit_to(Known& known, const std::optional<DrivenWay>& way) const {
+  if (!way || !(way->most < known.bounds.high)) return;
+  const std::string parameter = parameter_of(*way->by, *way->by->driver);
+  if (!parameter.empty() && is_set_later(context_, parameter)) return;
+  known = {{0.0, way->most}, way->by->path, way->by->driver_span()};
 }
 
 Known KnownNumbers::known_turn(const ExpressionNode& node) {
   const Place place = place_of(context_, node.index);
-  if (!std::isfinite(until_) || !place.is_known || place.frame.body != 0) return {};
-  const SpeedLimit limit = most_turning(plan_, probe_);
-  Known known{{0.0, limit.most * until_}, limit.path, limit.span};
-  known.speed = limit.most;
-  known.time = until_;
+  if (!place.is_known || place.frame.body != 0) return {};
+  Known known;
+  if (std::isfinite(until_)) {
+    const SpeedLimit limit = most_turning(plan_, probe_);
+    known = {{0.0, limit.most * until_}, limit.path, limit.span};
+    known.speed = limit.most;
+    known.time = until_;
+  }
+  if (is_first_) limit_to(known, turn_to_places(plan_, probe_));
   return known;
 }
 
@@ -224,8 +185,14 @@ bool KnownNumbers::is_yet_to_come(const std::string& task) const {
 Known KnownNumbers::known_entries(const ExpressionNode& node) const {
   const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
   if (is_yet_to_come(task)) return {{0.0, 0.0}, "a file without a way from it to this task", {}, true};
-  if (leads_back(context_) || is_entered_again(context_, task)) return {};
-  return {{0.0, 1.0}, "a file without a way back to it", {}, true};
+  if (!leads_back(context_) && !is_entered_again(context_, task))
+    return {{0.0, 1.0}, "a file without a way back to it", {}, true};
+  for (const TaskText& one : context_.file.tasks) {
+    if (one.name.text == task && one.attempts)
+      return {
+          {0.0, static_cast<double>(one.attempts->most)}, "`attempts` of " + task, one.attempts->span, true};
+  }
+  return {};
 }
 
 SpeedLimit KnownNumbers::limit_of(const ExpressionNode& node) {
@@ -268,15 +235,38 @@ const PlannedAxis* KnownNumbers::feature_axis(const ExpressionNode& node) const 
 Known KnownNumbers::known_feature(const ExpressionNode& node) {
   if (const PlannedAxis* axis = feature_axis(node)) return known_position(*axis);
   const std::optional<PlannedAxis> axis = plan_feature(context_, node.index);
-  const bool is_known = axis && is_first_ && axis->is_open() && axis->is_placed && !axis->is_set &&
-                        axis->move.body == 0 && std::isfinite(until_);
-  if (!is_known) return {};
+  const bool is_asked = axis && axis->is_open() && axis->is_placed && !axis->is_set && axis->move.body == 0;
+  if (!is_asked) return {};
+  const Known beside = known_beside_regions(*axis);
+  const bool is_known = is_first_ && std::isfinite(until_);
+  if (!is_known || std::isfinite(beside.bounds.low)) return beside;
   const SpeedLimit most = most_speed(plan_, axis->move, probe_),
                    driven = speed_of_drivers(plan_, axis->move, probe_);
   const SpeedLimit& limit = driven.most < most.most ? driven : most;
   const double from = probe_.position_at_start(*axis), way = limit.most * until_;
   Known known{{from - way, from + way}, limit.path, limit.span};
   known.time = until_;
+  return known;
+}
+
+/// A distance from a point of the base to a point outside of a region. The 72 directions stand for all.
+Known KnownNumbers::known_beside_regions(const PlannedAxis& axis) const {
+  constexpr int directions = 72;
+  const solver::Vector3& target = axis.in.pose.position;
+  const double from = is_start_ ? probe_.position_at_start(axis) : solver::infinity;
+  Known known;
+  for (const Confinement& region : regions_) {
+    const double outside = most_outside(region, probe_.robot(), axis.move.pose.position);
+    double least = 0.0;
+    for (int i = 0; i < directions; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / directions;
+      const solver::Vector3 along(std::cos(angle), std::sin(angle), 0.0);
+      least = std::max(least, target.dot(along) - farthest_along(region, along) - outside);
+    }
+    if (least > known.bounds.low && least > 1e-6 && from >= least)
+      known = {{least, solver::infinity}, region.path, region.span};
+  }
+  known.is_entered_anywhere = !is_first_;
   return known;
 }
 
@@ -303,10 +293,13 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
       known = {rest, region.path, region.span};
     known.is_entered_anywhere = plan_.task != nullptr && !is_first_;
   }
-  const bool starts_here = is_start_ && !axis.is_set && (axis.is_feature() || !axis.is_on_path);
-  if (!starts_here) return known;
+  const bool starts_here = is_start_ && !axis.is_set;
+  const std::optional<double> start = axis.is_on_path && !axis.is_feature()
+                                          ? start_along_path(context_, plan_, axis, probe_)
+                                          : std::optional(starts_here ? probe_.position_at_start(axis) : 0.0);
+  if (!starts_here || !start) return known;
   const Bounds ranged = known.bounds;
-  const double from = probe_.position_at_start(axis);
+  const double from = *start;
   // From outside it goes back into the range, through all that lies between.
   if (std::isfinite(known.bounds.low)) known.bounds.low = std::min(known.bounds.low, from);
   if (std::isfinite(known.bounds.high)) known.bounds.high = std::max(known.bounds.high, from);
@@ -319,7 +312,8 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
   SpeedLimit limit = most_speed(plan_, axis.move, probe_);
   const double own = plan_.speed_limit(axis);
   if (own < limit.most) limit = {own, axis.path, axis.span(solver::Quantity::velocity)};
-  const double way = limit.most * latest_.time;
+  constexpr double beside_path = 1.0 / 0.9;  // driven_way.cpp
+  const double way = (axis.is_on_path ? beside_path : 1.0) * limit.most * latest_.time;
   const Bounds reached = both(known.bounds, {from - way, from + way});
   if (reached.low > known.bounds.low || reached.high < known.bounds.high)
     known = {reached, limit.path, limit.span};
@@ -329,11 +323,13 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
 }
 
 /// A driver of position goes from where it starts to its target; a tenth and 2 cm are left for overshoot. A
-/// driver of velocity goes one way; a wall may throw the base back by v T.
-Known KnownNumbers::towards_target(const PlannedAxis& axis, double from, Known known) {
+/// driver of velocity goes one way, by v t; a wall may throw the base back by v T.
+Known KnownNumbers::towards_target(const PlannedAxis& axis, double from, Known known) const {
   const bool goes = axis.driver == solver::Quantity::position ||
                     (axis.driver == solver::Quantity::velocity && !axis.stands_still());
   if (!goes || !axis.target || axis.is_spring || axis.is_soft) return known;
+  const std::string parameter = parameter_of(axis, *axis.driver);
+  if (!parameter.empty() && is_set_later(context_, parameter)) return known;
   constexpr double least = 0.02, part = 0.1;  // [m], of the way
   Bounds way;
   if (axis.driver == solver::Quantity::position) {
@@ -341,7 +337,8 @@ Known KnownNumbers::towards_target(const PlannedAxis& axis, double from, Known k
     way = {std::min(from, *axis.target) - beyond, std::max(from, *axis.target) + beyond};
   } else {
     const double back = (1.0 + part) * std::abs(*axis.target) * axis.time_constant + least;
-    (*axis.target > 0.0 ? way.low : way.high) = from + (*axis.target > 0.0 ? -back : back);
+    const double ahead = (1.0 + 2.0 * part) * std::abs(*axis.target) * latest_.time + least;
+    way = *axis.target > 0.0 ? Bounds{from - back, from + ahead} : Bounds{from - ahead, from + back};
   }
   const Bounds left = both(known.bounds, way);
   if (left.low > known.bounds.low || left.high < known.bounds.high)

@@ -7,23 +7,11 @@
 
 #include "check/endings.hpp"
 #include "physics/confined.hpp"
+#include "physics/driven_way.hpp"
+#include "physics/known.hpp"
 #include "physics/questions.hpp"
 
 namespace zwang::lang {
-
-/// Where the number lies, and why.
-struct Known {
-  Bounds bounds;
-  std::string by;  ///< path of the range, `timeout`
-  Span span;
-  bool holds_whatever_pushes = false;
-  int output = -1;  ///< whose values they are
-  bool is_unknown = false;
-  bool is_entered_anywhere = false;  ///< nobody knows where the task begins
-  std::string parameter;             ///< that an end of the range is; empty: none
-  double speed = solver::infinity;   ///< of a way: how fast it goes. [m/s] or [rad/s]
-  double time = solver::infinity;    ///< [s] of a way: for so long it goes at most
-};
 
 /// Of the plan's task, or of `always`.
 class KnownNumbers {
@@ -43,6 +31,8 @@ class KnownNumbers {
   Known known_speed(const ExpressionNode& node);
   Known known_way(const ExpressionNode& node);
   Known known_turn(const ExpressionNode& node);
+  /// By the way to the drivers' places, where that is shorter.
+  void limit_to(Known& known, const std::optional<DrivenWay>& way) const;
   Known known_since(const ExpressionNode& node) const;
   /// No way leads from it to the task whose exits are looked at.
   bool is_yet_to_come(const std::string& task) const;
@@ -52,11 +42,12 @@ class KnownNumbers {
   Known known_coordinate(const ExpressionNode& node);
   const PlannedAxis* feature_axis(const ExpressionNode& node) const;
   Known known_feature(const ExpressionNode& node);
+  Known known_beside_regions(const PlannedAxis& axis) const;
   /// The range of the quantity; nullopt where a `set` of the file may widen it.
   std::optional<solver::Range> range_of(const PlannedAxis& axis, solver::Quantity quantity) const;
   Known known_position(const PlannedAxis& axis);
   /// A driver of position goes from where it starts to its target; a tenth and 2 cm are left for overshoot.
-  static Known towards_target(const PlannedAxis& axis, double from, Known known);
+  Known towards_target(const PlannedAxis& axis, double from, Known known) const;
   Known known_velocity(const PlannedAxis& axis);
   Known known_force(const PlannedAxis& axis) const;
 
@@ -71,8 +62,5 @@ class KnownNumbers {
   Ending latest_;
   double until_ = solver::infinity;  ///< [s]
 };
-
-/// All values to which the file sets an output.
-std::vector<const ValueText*> values_set(const CheckContext& context, const std::string& output);
 
 }  // namespace zwang::lang

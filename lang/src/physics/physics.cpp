@@ -76,6 +76,7 @@ void ask_exits_of_task(const CheckContext& context, std::size_t index, const Pla
   if (context.diagnostics.has_errors()) return;
   ask_contradiction(context, plan, probe, remarks);
   ask_exits(context, plan, plan.task->exits, asked.conditions.of_tasks[index], asked.all, probe, remarks);
+  ask_requirement(context, plan, asked.conditions.on_entry[index], asked.all, probe, remarks);
   ask_stopping(context, plan, asked.conditions, index, probe, remarks);
 }
 
@@ -96,7 +97,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_distance(plan, probe, remarks);
   ask_left_over(context, plan, probe, remarks);
   ask_coasting(context, plan, asked.all, asked.conditions.of_tasks[index], remarks);
-  ask_top_speed(plan, *context.robot, remarks);
+  ask_top_speed(plan, *context.robot, probe, remarks);
   ask_plane(plan, probe, remarks);
   ask_path(context, plan, probe, remarks);
   ask_arm_force(plan, *context.robot, remarks);
@@ -105,10 +106,11 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_dead_guard(context, plan, probe, remarks);
   ask_time_constant(plan, probe, remarks);
   ask_yields(context, plan, asked.scene, probe, remarks);
-  ask_dead_band(context, plan, remarks);
+  ask_dead_band(context, plan, probe, remarks);
   ask_swinging(context, plan, probe, remarks);
   ask_yield_axes(context, plan, probe, remarks);
   ask_wheel_torque(plan, probe, remarks);
+  ask_friction(context, plan, probe, remarks);
   ask_boundary(context, plan, probe, remarks);
   ask_tipping(plan, asked.scene, probe, remarks);
   ask_traction(plan, asked.scene, probe, remarks);

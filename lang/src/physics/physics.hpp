@@ -10,6 +10,7 @@ namespace zwang::lang {
 struct ExitConditions {
   const std::vector<std::vector<Condition>>& of_tasks;
   const std::vector<Condition>& of_always;
+  const std::vector<std::optional<Condition>>& on_entry;  ///< `enter.require` of each task
 };
 
 /// Asks what can be asked of a file that may have other errors; notes only where they are wanted.

@@ -9,6 +9,7 @@
 #include "zwang/lang/wheel_level.hpp"
 #include "zwang/solver/base_analysis.hpp"
 #include "zwang/solver/joint_loads.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::lang {
 
@@ -287,6 +288,33 @@ const AxisFigures* Probe::figures(const PlannedAxis& axis) {
 
 double Probe::position_at_start(const PlannedAxis& axis) const {
   return solver::coordinate_of(constraint_of(axis, 0.0), robot_.model, states_[0]).position;
+}
+
+double Probe::reach_at_start(const solver::AttachedFrame& frame) const {
+  const solver::Pose pose = solver::motion_of(frame, robot_.model, states_[0]).pose;
+  return (pose.position - states_[0].base_pose.position).head<2>().norm();
+}
+
+Probe::JointSpeed Probe::joint_speed(const PlannedAxis& axis) const {
+  const solver::AxisConstraint constraint = constraint_of(axis, 0.0);
+  JointSpeed best;
+  for (solver::State state : states_) {
+    double sum = 0.0, largest = 0.0;
+    int joint = -1;
+    for (int j = 0; j < robot_.model.joint_count(); ++j) {
+      if (solver::carries_wheel(robot_.model, j + 1)) continue;
+      state.qd.setZero();
+      state.qd(j) = 1.0;
+      const double lever = std::abs(solver::coordinate_of(constraint, robot_.model, state).velocity);
+      if (lever < 1e-9) continue;
+      const double share = lever * robot_.model.joint(j).max_velocity;
+      sum += share;
+      if (share > largest) joint = j;
+      largest = std::max(largest, share);
+    }
+    if (sum > best.most) best = {sum, joint};
+  }
+  return best;
 }
 
 /// The robot does what the rows say, as if nothing were in its way. Blocked, it meets the force that takes

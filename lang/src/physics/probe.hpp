@@ -69,6 +69,15 @@ class Probe {
                 const solver::AttachedFrame& b, const solver::Vector3& along_b) const;
   /// The coordinate of an axis whose place is known. [m] or [rad]
   double position_at_start(const PlannedAxis& axis) const;
+  /// From the base's origin to the frame, in the plane, at the start. [m]
+  double reach_at_start(const solver::AttachedFrame& frame) const;
+  /// How fast the joints beside the wheels can move the axis together, each at its <limit velocity>, in the
+  /// configuration that suits it best. `joint`: the one that adds most; -1: none adds anything.
+  struct JointSpeed {
+    double most = 0.0;  ///< [m/s] or [rad/s]
+    int joint = -1;
+  };
+  JointSpeed joint_speed(const PlannedAxis& axis) const;
   /// The force of a force driver against something that blocks its axis, after the acceleration ranges among
   /// `limits` took their part. An entry for each configuration and direction in which it can be told.
   std::vector<Pressed> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);

@@ -69,8 +69,8 @@ void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_still(const CheckContext& context, PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W613: distances that are to vanish.
 void ask_distance(const PlannedTask& plan, const Probe& probe, Remarks& remarks);
-/// W611: speeds that the wheels' motors cannot turn to.
-void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
+/// W611: speeds that the wheels' motors cannot turn to, or an arm's joints.
+void ask_top_speed(const PlannedTask& plan, const Robot& robot, Probe& probe, Remarks& remarks);
 /// W612: an arm that may press harder than the base may.
 void ask_arm_force(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
 /// E601, W601: force drivers and acceleration ranges.
@@ -90,8 +90,8 @@ void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W618, E417: yields that ring when a hand holds them stiffly.
 void ask_yields(const CheckContext& context, const PlannedTask& plan, const std::optional<Scene>& scene,
                 Probe& probe, Remarks& remarks);
-/// W647: yields whose force range does not hold their dead band.
-void ask_dead_band(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
+/// W647: yields whose force range, or whose motors, do not hold their dead band.
+void ask_dead_band(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W648: springs that still swing at the timeout.
 void ask_swinging(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W617: yields along an axis that is not the one along which their force is measured.
@@ -106,6 +106,8 @@ void ask_coasting(const CheckContext& context, const PlannedTask& plan, const Al
 void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
 void ask_force_budget(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W649: drivers that dry friction holds.
+void ask_friction(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W606: drivers beyond the motors.
 void ask_wheel_torque(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W607: boundaries that ask for more braking than the motors have.
@@ -132,6 +134,13 @@ void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,
 /// W511: exits that the ranges in force decide. `exits` are those of the plan's task, or of `always`.
 void ask_exits(const CheckContext& context, const PlannedTask& plan, const std::vector<ExitText>& exits,
                const std::vector<Condition>& conditions, const AllTasks& all, Probe& probe, Remarks& remarks);
+
+/// W511: an `enter.require` that asks for more speed than the tasks before leave.
+void ask_requirement(const CheckContext& context, const PlannedTask& plan,
+                     const std::optional<Condition>& require, const AllTasks& all, Probe& probe,
+                     Remarks& remarks);
+/// Whether the scene moves the base: what a range keeps, somebody may break.
+bool pushes_the_base(const std::optional<Scene>& scene);
 
 /// W620: guards on a distance that fire too late to stop. `index`: of the plan's task.
 void ask_stopping(const CheckContext& context, const PlannedTask& plan, const ExitConditions& conditions,

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "physics/kept_heading.hpp"
 #include "physics/questions.hpp"
 
 namespace zwang::lang {
@@ -72,28 +73,13 @@ std::optional<Forbidding> by_acceleration(const PlannedTask& plan, const Planned
   return forbids ? std::optional(by(*limit.from, axis, solver::Quantity::acceleration)) : std::nullopt;
 }
 
-/// Whether a row keeps the base's heading as it is at the start.
-bool keeps_heading(const PlannedTask& plan, const Probe& probe) {
-  return std::any_of(plan.axes.begin(), plan.axes.end(), [&](const PlannedAxis& axis) {
-    if (!axis.turns() || axis.is_feature() || axis.move.body != 0 || axis.is_soft || axis.is_spring)
-      return false;
-    if (axis.stands_still()) return true;
-    const bool is_place = axis.driver == solver::Quantity::position && axis.is_placed && !axis.is_set;
-    return is_place && (!axis.target || std::abs(*axis.target - probe.position_at_start(axis)) < 1e-3);
-  });
-}
-
 /// As `Probe::alignment`. In the task that starts the run, with the heading that it keeps, axes of the world
 /// and of the base may be one, too.
 int aligned(const PlannedTask& plan, const PlannedAxis& axis, const PlannedAxis& other, double side,
             Probe& probe) {
   const int always = probe.alignment(axis, other);
-  const bool may_be = always == 0 && side != 0.0 && axis.driver == solver::Quantity::position &&
-                      axis.move.body == 0 && other.move.body == 0 && !axis.turns() && !other.turns() &&
-                      !axis.is_feature() && !other.is_feature() && keeps_heading(plan, probe);
-  if (!may_be) return always;
-  const double cosine = probe.direction(axis).dot(probe.direction(other));
-  return cosine > 1.0 - 1e-9 ? 1 : cosine < -1.0 + 1e-9 ? -1 : 0;
+  const bool may_be = always == 0 && side != 0.0 && axis.driver == solver::Quantity::position;
+  return may_be ? aligned_at_start(plan, axis, other, probe) : always;
 }
 
 /// W416 tells of a velocity driver.

@@ -87,6 +87,20 @@ WheelSpeed wheel_speed_at_best(const Robot& robot) {
   return best.joint < 0 ? WheelSpeed{} : best;
 }
 
+double dry_friction_along(const Robot& robot, const Vector3& linear, double turn) {
+  double force = 0.0;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const std::optional<double> rate = rate_of(robot, wheel, linear, turn);
+    if (!rate) return 0.0;
+    const auto j = static_cast<std::size_t>(wheel.body - 1);
+    if (standing_of(robot, wheel.body).is_on_swivel || j >= robot.friction.size()) continue;
+    const JointFriction& friction = robot.friction[j];
+    const double left = friction.presliding > 0.0 ? 1.0 - friction.compensate : 1.0;
+    force += left * friction.coulomb * std::abs(*rate);
+  }
+  return force;
+}
+
 void check_speed_limits(const Robot& robot, Diagnostics& diagnostics) {
   for (const BaseLimit& limit : robot.limits) {
     if (limit.quantity != solver::Quantity::velocity) continue;

@@ -18,6 +18,9 @@ WheelSpeed wheel_speed(const Robot& robot, const solver::Vector3& linear, double
 WheelSpeed wheel_speed_along(const Robot& robot, solver::Axis axis);
 /// In the direction in which the base is fastest: what it can reach whatever way it heads.
 WheelSpeed wheel_speed_at_best(const Robot& robot);
+/// The force [N] or moment [N m] with which the dry friction of wheels holds a base that stands, along
+/// `linear` or about `turn` as above. Wheels on swivels and free wheels add nothing.
+double dry_friction_along(const Robot& robot, const solver::Vector3& linear, double turn);
 /// W611 of the robot file's own limits.
 void check_speed_limits(const Robot& robot, Diagnostics& diagnostics);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "path/place_on_path.hpp"
 #include "zwang/lang/feature_measure.hpp"
 #include "zwang/lang/plane.hpp"
 
@@ -49,7 +50,6 @@ class StartCheck {
 
   void check_group(const Group& group, const std::string& owner) {
     if (group.kind == GroupKind::inside) return check_region(group, owner);
-    if (group.path >= 0) return;  // from where along it the robot starts is found as it starts
     for (const AxisStatements& axis : group.axes) {
       if (axis.position) check_range(group, axis, owner);
     }
@@ -69,7 +69,9 @@ class StartCheck {
     if (!moved || !axes) return;
     c.move = *moved;
     c.in = *axes;
-    const double s = solver::coordinate_of(c, program_.robot.model, state_).position;
+    if (group.path >= 0 && axis.axis != solver::Axis::x && axis.axis != solver::Axis::y) return;
+    const double s =
+        group.path >= 0 ? on_path(group, c) : solver::coordinate_of(c, program_.robot.model, state_).position;
     const double low = axis.position->low.evaluate(parameters_);
     const double high = axis.position->high.evaluate(parameters_);
     const double outside = std::max(s - high, low - s);
@@ -80,6 +82,17 @@ class StartCheck {
     diagnostics_.add(wording::starts_outside(
         axis.statement_spans[static_cast<std::size_t>(solver::Quantity::position)],
         {owner + axis.name, "", outside, axis.return_speed.evaluate(parameters_), turns}));
+  }
+
+  /// [m] along the path, or beside it.
+  double on_path(const Group& group, solver::AxisConstraint c) const {
+    const bool is_along = c.axis == solver::Axis::x;
+    c.axis = solver::Axis::x;
+    const double x = solver::coordinate_of(c, program_.robot.model, state_).position;
+    c.axis = solver::Axis::y;
+    const double y = solver::coordinate_of(c, program_.robot.model, state_).position;
+    const PlaceOnPath place = place_on(program_.paths[static_cast<std::size_t>(group.path)], x, y);
+    return is_along ? place.along : place.offset;
   }
 
   void check_region(const Group& group, const std::string& owner) {

@@ -238,9 +238,10 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
     }
     statement.high = parse_value_text(magnitude, what, node.span, diagnostics, std::nullopt, "+-");
     statement.low = negated(statement.high);
-    // The unit that is missing is missing behind the sign of both.
-    if (!statement.high.quantity.has_unit)
-      statement.low.quantity.number = statement.high.quantity.number = "+-" + magnitude;
+    // A unit that is missing, or another one, is so behind the sign of both.
+    const bool has_unit = statement.high.quantity.has_unit;
+    statement.low.quantity.number = statement.high.quantity.number =
+        "+-" + (has_unit ? statement.high.quantity.number : magnitude);
     return statement;
   }
   if (is_odd_range(node, what, diagnostics)) {
@@ -282,8 +283,10 @@ bool require_quantity(const ValueText& value, const Dimension& expected, const s
     const bool is_rate = expected == dimension::time && quantity.dimension == dimension::frequency;
     const bool is_period = expected == dimension::frequency && quantity.dimension == dimension::time;
     Diagnostic diagnostic = wording::wrong_dimension(value.span, what, expected, quantity.dimension);
-    if (expected == dimension::force && quantity.dimension == dimension::torque)
-      diagnostic.help = "for example `" + quantity.number + " N`";
+    if (expected == dimension::force && quantity.dimension == dimension::torque) {
+      diagnostic.replacement = quantity.number + " N";
+      diagnostic.help = "did you mean `" + *diagnostic.replacement + "`?";
+    }
     if ((is_rate || is_period) && quantity.value > 0.0)
       diagnostic.help = wording::help_to_invert(1.0 / quantity.value, is_rate);
     diagnostics.add(std::move(diagnostic));
