@@ -7,8 +7,8 @@ program=$1
 files=("${@:2}")
 long=(blind_hospital blind_obstacle cradle_varied docking_casters docking_casters_badly_seen docking_diff_badly_seen
   docking_diff_in_vain docking_in_vain_casters docking_live_casters docking_live_diff docking_steady
-  faults_of_mass_casters faults_of_mass_diff faults_slip_askew felt_docking felt_hospital felt_obstacle_twins
-  felt_wall_align_twins
+  faults_of_mass_casters faults_of_mass_diff faults_slip_askew felt_carry felt_cart felt_corner felt_cradle felt_deliver
+  felt_docking felt_door felt_follow_wall felt_hospital felt_obstacle_twins felt_patrol felt_wall_align_twins
   hospital_blind hospital_diff_blind hospital_diff_closed hospital_loaded limited_docking limited_docking_twins
   limited_hospital limited_hospital_diff limited_hospital_twins limited_obstacle_casters limited_obstacle_twins
   limited_wall_align_twins obstacle_corner obstacle_gently obstacle_leaves_diff obstacle_light obstacle_rollers obstacle_stays_casters oncoming_fails owned_wall_align pressed_on
