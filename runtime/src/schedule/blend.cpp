@@ -114,6 +114,7 @@ Blend::Blend(std::size_t most_wanted, int most_rows, double horizon) : most_kept
   for (KeptList& kept : kept_) kept.reserve(capacity);
   for (std::vector<AxisConstraint>& fading : fading_) fading.reserve(capacity);
   taken_.reserve(most_wanted);
+  is_renewed_.reserve(most_wanted);
   carried_.reserve(most_wanted);
   entering_.reserve(most_wanted);
 }
@@ -309,12 +310,16 @@ void Blend::find_entering(const std::vector<Wanted>& wanted) noexcept {
   }
 }
 
-void Blend::put(const std::vector<Wanted>& wanted, double progress) noexcept {
+void Blend::advance(double progress) noexcept {
   if (progress >= 1.0) count_ = 1;
-  is_put_ = true;
   horizon_ = std::max(solver::limit_horizon, (1.0 - progress) * duration_);
   sets_[0].share = count_ == 1 ? 1.0 : progress;
   for (std::size_t set = 1; set < count_; ++set) sets_[set].share = share_from_[set] * (1.0 - progress);
+}
+
+void Blend::put(const std::vector<Wanted>& wanted, double progress) noexcept {
+  advance(progress);
+  is_put_ = true;
   put_newest(wanted);
   for (std::size_t set = 1; set < count_; ++set) put_before(set, wanted);
 }
@@ -350,10 +355,16 @@ void Blend::put_before(std::size_t index, const std::vector<Wanted>& wanted) noe
     kept.place = add(set, c, source);
     if (to == nullptr) continue;
     if (kept.place >= 0) make_present(kept, *to, set.constraints[kept.place]);
-    if (!drives || !carries_on(c, to->constraint)) continue;
-    const int newest = kept_[0][static_cast<std::size_t>(kept.becomes)].place;
-    if (newest >= 0) sets_[0].in_force[static_cast<std::size_t>(newest)].alpha += set.share;
+    if (drives) carry_on(kept, c, *to, set.share);
   }
+}
+
+/// The driver of a set before counts in the alpha of the one that it goes on as.
+void Blend::carry_on(const Kept& kept, const AxisConstraint& before, const Wanted& to,
+                     double share) noexcept {
+  if (!carries_on(before, to.constraint)) return;
+  const int newest = kept_[0][static_cast<std::size_t>(kept.becomes)].place;
+  if (newest >= 0) sets_[0].in_force[static_cast<std::size_t>(newest)].alpha += share;
 }
 
 /// The present form of a constraint that a set before keeps, from the one that it lives as, joins or fades
@@ -403,10 +414,47 @@ void Blend::tighten(const AxisConstraint& to, Ranges entering, AxisConstraint& c
   if (carries_on(c, to)) c.driver->force = tighter(c.driver->force, to.driver->force);
 }
 
-void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept {
+void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed,
+                  double progress) noexcept {
+  if (count_ > 1) advance(progress);
+  renew_newest(wanted, renewed);
+  if (count_ == 1) return;
+  is_renewed_.assign(wanted.size(), 0);
+  for (const int i : renewed) is_renewed_[static_cast<std::size_t>(i)] = 1;
+  for (std::size_t set = 1; set < count_; ++set) renew_before(set, wanted);
+}
+
+void Blend::renew_newest(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept {
+  BlendedSet& set = sets_[0];
   for (const int i : renewed) {
     const int place = kept_[0][static_cast<std::size_t>(i)].place;
-    if (place >= 0) sets_[0].constraints[place] = wanted[static_cast<std::size_t>(i)].constraint;
+    if (place >= 0) set.constraints[place] = wanted[static_cast<std::size_t>(i)].constraint;
+  }
+  if (count_ == 1) return;
+  for (const Kept& kept : kept_[0]) {
+    if (kept.place < 0) continue;
+    InForce& source = set.in_force[static_cast<std::size_t>(kept.place)];
+    source.alpha = source.drives ? set.share : 1.0;
+    stretch(entering_[static_cast<std::size_t>(kept.index)], set.constraints[kept.place]);
+  }
+}
+
+/// A constraint that joins or fades has its present form anew, one that lives only its new values.
+void Blend::renew_before(std::size_t index, const std::vector<Wanted>& wanted) noexcept {
+  BlendedSet& set = sets_[index];
+  for (const Kept& kept : kept_[index]) {
+    if (kept.place < 0) continue;
+    InForce& source = set.in_force[static_cast<std::size_t>(kept.place)];
+    source.alpha = set.share;
+    if (kept.becomes < 0) continue;
+    const auto i = static_cast<std::size_t>(kept.becomes);
+    const Wanted& to = wanted[i];
+    const AxisConstraint& c = kept.fades >= 0 ? fading(index, kept) : to.constraint;
+    if (!kept.lives || is_renewed_[i] != 0) {
+      set.constraints[kept.place] = c;
+      make_present(kept, to, set.constraints[kept.place]);
+    }
+    if (source.drives) carry_on(kept, c, to, set.share);
   }
 }
 

@@ -66,11 +66,11 @@ class Blend {
   /// Blends what is in force with `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
   /// length until the next switch.
   void start(const std::vector<Wanted>& wanted, double duration) noexcept;
-  /// Whether one set is in force, by the last `put`. `renew` then has the effect of `put`, until a wanted
-  /// constraint comes into reach or goes out of it.
-  bool rests() const noexcept { return count_ == 1 && is_put_; }
-  /// Writes those of `wanted` that have new values, by their indices.
-  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept;
+  /// Whether `renew` has the effect of `put`, if no wanted constraint came into reach or went out of it since
+  /// the last `put`.
+  bool stays_put(double progress) const noexcept { return is_put_ && (count_ == 1 || progress < 1.0); }
+  /// Writes those of `wanted` that have new values, by their indices, and what the progress changes.
+  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed, double progress) noexcept;
   /// Puts the sets in force at `progress` (0 to 1, > 0).
   void put(const std::vector<Wanted>& wanted, double progress) noexcept;
 
@@ -128,8 +128,13 @@ class Blend {
     return fading_[set][static_cast<std::size_t>(kept.fades)];
   }
   void find_entering(const std::vector<Wanted>& wanted) noexcept;
+  void advance(double progress) noexcept;
+  void renew_newest(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept;
+  void renew_before(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
   void put_newest(const std::vector<Wanted>& wanted) noexcept;
   void put_before(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
+  void carry_on(const Kept& kept, const solver::AxisConstraint& before, const Wanted& to,
+                double share) noexcept;
   void make_present(const Kept& kept, const Wanted& to, solver::AxisConstraint& c) const noexcept;
   static int add(BlendedSet& set, const solver::AxisConstraint& constraint, const InForce& source) noexcept;
   void stretch(Ranges entering, solver::AxisConstraint& c) const noexcept;
@@ -144,6 +149,7 @@ class Blend {
   std::size_t count_ = 0;
   int most_kept_rows_;
   std::vector<char> taken_;       ///< by what is wanted
+  std::vector<char> is_renewed_;  ///< the same
   std::vector<Ranges> carried_;   ///< by what is wanted: its ranges that a set has
   std::vector<Ranges> entering_;  ///< by what is wanted: its ranges that the set before did not have
   double duration_ = 0.0;

@@ -350,14 +350,16 @@ void Scheduler::Parts::put_constraints() noexcept {
 
 void Scheduler::Parts::put() noexcept {
   const bool is_same_list = !std::exchange(reach_changed, false);
-  if (is_same_list && blend->rests()) {
-    blend->renew(wanted, renewed);
-    return;
-  }
-  if (is_at_end()) keep_energy_from_rising();
+  const bool is_blending = blend->sets().size() > 1;
+  if (is_blending && is_at_end()) keep_energy_from_rising();
   // The tick of the switch already goes one tick's way, so that no share is ever 0.
   double progress = blend_time > 0.0 ? (now - switched + period) / blend_time : 1.0;
   if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;
+  if (is_same_list && blend->stays_put(progress)) {
+    blend->renew(wanted, renewed, progress);
+    for (std::size_t i = 0; i < blend->sets().size(); ++i) row_sets[i].share = blend->sets()[i].share;
+    return;
+  }
   blend->put(wanted, progress);
   sources.clear();
   for (std::size_t i = 0; i < blend->sets().size(); ++i) {
