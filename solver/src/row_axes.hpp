@@ -7,7 +7,10 @@
 namespace zwang::solver {
 
 inline bool is_same(const ForceVector& one, const ForceVector& other) {
-  return one.linear == other.linear && one.angular == other.angular;
+  const double* const a = one.angular.data();
+  const double* const b = other.angular.data();
+  const auto differs = (two(a) != two(b)) | (two(a + 2) != two(b + 2)) | (two(a + 4) != two(b + 4));
+  return (differs[0] | differs[1]) == 0;
 }
 
 inline bool has_same_axis(const Row& one, const Row& other) {

@@ -123,8 +123,12 @@ struct Solver::Workspace {
       if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
         return Status::wrong_size;
       }
-      const double key = key_of(row);
       first_here[i] = -1;
+      if (i > 0 && has_same_axis(row, *rows[i - 1])) {  // as the other end of a range has
+        twins[i] = twins[i - 1] < 0 ? static_cast<int>(i) - 1 : twins[i - 1];
+        continue;
+      }
+      const double key = key_of(row);
       twins[i] = twin_of(row, key);
       if (twins[i] >= 0) continue;
       if (!has_finite_axis(row)) return Status::invalid_input;
@@ -142,7 +146,7 @@ struct Solver::Workspace {
     }
   }
 
-  /// The first row that acts along the same axis, as the two ends of a range do; -1 for none. Mostly it is
+  /// The first row that acts along the same axis, as ranges of several tasks do; -1 for none. Mostly it is
   /// along the last one.
   int twin_of(const Row& row, double key) const noexcept {
     for (std::size_t k = axis_count; k-- > 0;) {

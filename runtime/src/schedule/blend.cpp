@@ -32,13 +32,13 @@ unsigned ranges_of(const Wanted& wanted) {
   return wanted.fence ? all_bits : ranges_of(wanted.constraint);
 }
 
-AxisConstraint ranges_alone(AxisConstraint c, unsigned ranges) {
+/// These ranges, and nothing else.
+void keep_ranges(unsigned ranges, AxisConstraint& c) {
   c.driver.reset();
   if ((ranges & position_bit) == 0U) c.position.reset();
   if ((ranges & velocity_bit) == 0U) c.velocity.reset();
   if ((ranges & acceleration_bit) == 0U) c.acceleration.reset();
   if ((ranges & force_bit) == 0U) c.force.reset();
-  return c;
 }
 
 bool same(const solver::AttachedFrame& a, const solver::AttachedFrame& b) {
@@ -72,11 +72,16 @@ bool asks_alike(const Driver& a, const Driver& b, bool measured) {
                                       a.target_acceleration == b.target_acceleration));
 }
 
-bool says_alike(const AxisConstraint& a, const AxisConstraint& b, bool measured) {
-  return a.driver.has_value() == b.driver.has_value() &&
-         (!a.driver || asks_alike(*a.driver, *b.driver, measured)) && a.weight == b.weight &&
-         same(a.position, b.position) && same(a.velocity, b.velocity) &&
+/// Of what a constraint said, and of what another one says: the same ranges, as firm.
+template <class Said>
+bool limits_alike(const Said& a, const AxisConstraint& b) {
+  return a.weight == b.weight && same(a.position, b.position) && same(a.velocity, b.velocity) &&
          same(a.acceleration, b.acceleration) && same(a.force, b.force);
+}
+
+bool drives_alike(const AxisConstraint& a, const AxisConstraint& b, bool measured) {
+  return a.driver.has_value() == b.driver.has_value() &&
+         (!a.driver || asks_alike(*a.driver, *b.driver, measured));
 }
 
 /// The range that both allow; if they share nothing, the newer one.
@@ -107,7 +112,9 @@ Blend::Blend(std::size_t most_wanted, int most_rows, double horizon) : most_kept
     set.in_force.reserve(capacity);
   }
   for (KeptList& kept : kept_) kept.reserve(capacity);
+  for (std::vector<AxisConstraint>& fading : fading_) fading.reserve(capacity);
   taken_.reserve(most_wanted);
+  is_renewed_.reserve(most_wanted);
   carried_.reserve(most_wanted);
   entering_.reserve(most_wanted);
 }
@@ -141,7 +148,6 @@ void Blend::start_from_always(const std::vector<Wanted>& wanted) noexcept {
 Blend::Kept Blend::kept_of(const std::vector<Wanted>& wanted, std::size_t index) noexcept {
   const Wanted& w = wanted[index];
   Kept kept;
-  kept.constraint = w.constraint;
   kept.origin = w.origin;
   kept.move = w.move;
   kept.in = w.in;
@@ -149,33 +155,36 @@ Blend::Kept Blend::kept_of(const std::vector<Wanted>& wanted, std::size_t index)
   kept.fence = w.fence;
   kept.lost = w.lost;
   kept.index = static_cast<int>(index);
+  if (w.always && !w.fence) kept.said = said_by(w.constraint);
   return kept;
 }
 
-/// Its constraints as they were put last; those of `always`, too, that are out of reach.
+Blend::Said Blend::said_by(const AxisConstraint& c) noexcept {
+  return {c.position, c.velocity, c.acceleration, c.force, c.weight};
+}
+
+/// Its constraints that were put last; those of `always`, too, that are out of reach.
 void Blend::recall(std::size_t set) noexcept {
-  const std::vector<AxisConstraint>& put = sets_[set].constraints.constraints();
   KeptList& all = kept_[set];
   for (Kept& kept : all) {
-    if (kept.place >= 0) kept.constraint = put[static_cast<std::size_t>(kept.place)];
     if (kept.place >= 0 && kept.fence)
       kept.origin = sets_[set].in_force[static_cast<std::size_t>(kept.place)].origin;
-    kept.constraint.position_horizon = kept.constraint.velocity_horizon = solver::limit_horizon;
     if (kept.joins != 0U) kept.always = false;
+    if (kept.place >= 0 && kept.always) kept.said = said_by(put_last(set, kept));
   }
   std::erase_if(all, [](const Kept& kept) { return kept.place < 0 && !kept.always; });
 }
 
-int Blend::row_bound(const KeptList& all) noexcept {
+int Blend::row_bound(std::size_t set) const noexcept {
   int rows = 0;
-  for (const Kept& kept : all) rows += kept.place >= 0 ? runtime::row_bound(kept.constraint) : 0;
+  for (const Kept& kept : kept_[set]) rows += kept.place >= 0 ? runtime::row_bound(put_last(set, kept)) : 0;
   return rows;
 }
 
 /// The faintest set gives way to one more, and any set that switches without end have filled with ranges.
 void Blend::make_room() noexcept {
   for (std::size_t set = count_; set-- > 0;) {
-    if (count_ > 1 && row_bound(kept_[set]) > most_kept_rows_) drop(set);
+    if (count_ > 1 && row_bound(set) > most_kept_rows_) drop(set);
   }
   if (count_ < most_sets) return;
   std::size_t faintest = 0;
@@ -194,6 +203,7 @@ void Blend::drop(std::size_t set) noexcept {
   };
   to_the_end(sets_);
   to_the_end(kept_);
+  to_the_end(fading_);
   --count_;
   double sum = 0.0;
   for (const BlendedSet& left : sets()) sum += left.share;
@@ -203,6 +213,7 @@ void Blend::drop(std::size_t set) noexcept {
 void Blend::push_front(const std::vector<Wanted>& wanted) noexcept {
   std::rotate(sets_.begin(), sets_.end() - 1, sets_.end());
   std::rotate(kept_.begin(), kept_.end() - 1, kept_.end());
+  std::rotate(fading_.begin(), fading_.end() - 1, fading_.end());
   ++count_;
   sets_[0].share = count_ == 1 ? 1.0 : 0.0;
   for (std::size_t set = 0; set < count_; ++set) share_from_[set] = sets_[set].share;
@@ -214,18 +225,22 @@ void Blend::push_front(const std::vector<Wanted>& wanted) noexcept {
 void Blend::relate(std::size_t set, const std::vector<Wanted>& wanted) noexcept {
   taken_.assign(wanted.size(), 0);
   carried_.assign(wanted.size(), 0);
+  fading_[set].clear();
   for (Kept& kept : kept_[set]) {
     kept.joins = 0;
-    kept.lives = false;
-    kept.becomes = match(kept, wanted);
-    if (kept.becomes < 0) continue;
+    kept.fades = -1;
+    kept.becomes = match(set, kept, wanted);
+    if (kept.becomes < 0) {
+      fade(set, kept, nullptr);
+      continue;
+    }
     const auto i = static_cast<std::size_t>(kept.becomes);
     const Wanted& w = wanted[i];
     taken_[i] = 1;
-    const bool is_unchanged = kept.lost == w.lost && says_alike(kept.constraint, w.constraint, w.measured);
-    kept.lives = is_unchanged || w.fence;
+    kept.lives = w.fence || is_unchanged(set, kept, w);
+    if (!kept.lives) fade(set, kept, &w);
     // A sum beside a driver of the set holds for others than this driver: it joins on its own.
-    carried_[i] |= kept.lives || !kept.constraint.driver ? all_bits : all_bits & ~force_bit;
+    carried_[i] |= kept.lives || !fading(set, kept).driver ? all_bits : all_bits & ~force_bit;
     kept.index = kept.becomes;
   }
   join_ranges(set, wanted);
@@ -241,12 +256,35 @@ void Blend::join_ranges(std::size_t set, const std::vector<Wanted>& wanted) noex
   }
 }
 
-int Blend::match(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept {
+/// Whether it is what is wanted now. Out of force, it is of `always` and drives nothing.
+bool Blend::is_unchanged(std::size_t set, const Kept& kept, const Wanted& w) const noexcept {
+  if (kept.lost != w.lost) return false;
+  if (kept.place < 0) return limits_alike(kept.said, w.constraint);
+  const AxisConstraint& put = put_last(set, kept);
+  return limits_alike(put, w.constraint) && drives_alike(put, w.constraint, w.measured);
+}
+
+/// Keeps it as it was put last; out of force, as it said last.
+void Blend::fade(std::size_t set, Kept& kept, const Wanted* now) noexcept {
+  std::vector<AxisConstraint>& all = fading_[set];
+  if (kept.place < 0 && now == nullptr) return;
+  kept.fades = static_cast<int>(all.size());
+  AxisConstraint& c = all.emplace_back(kept.place >= 0 ? put_last(set, kept) : now->constraint);
+  c.position_horizon = c.velocity_horizon = solver::limit_horizon;
+  if (kept.place >= 0) return;
+  c.position = kept.said.position;
+  c.velocity = kept.said.velocity;
+  c.acceleration = kept.said.acceleration;
+  c.force = kept.said.force;
+  c.weight = kept.said.weight;
+}
+
+int Blend::match(std::size_t set, const Kept& kept, const std::vector<Wanted>& wanted) const noexcept {
   const auto is_match = [&](std::size_t i) {
     const Wanted& w = wanted[i];
     if (taken_[i] != 0 || (w.far && !w.always)) return false;
     if (kept.always || w.always) return kept.always && w.always && is_same_statement(kept.origin, w.origin);
-    const AxisConstraint& a = kept.constraint;
+    const AxisConstraint& a = put_last(set, kept);
     const AxisConstraint& b = w.constraint;
     return measures_alike(a, b) && a.level == b.level && (same(kept.move, w.move) || same(a.move, b.move)) &&
            (same(kept.in, w.in) || same(a.in, b.in));
@@ -254,6 +292,7 @@ int Blend::match(const Kept& kept, const std::vector<Wanted>& wanted) const noex
   // `always` is listed first, and stays where it is.
   const auto own = static_cast<std::size_t>(kept.index);
   if (kept.always) return own < wanted.size() && is_match(own) ? kept.index : -1;
+  if (kept.place < 0) return -1;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (is_match(i)) return static_cast<int>(i);
   }
@@ -267,16 +306,20 @@ void Blend::find_entering(const std::vector<Wanted>& wanted) noexcept {
   for (const Kept& kept : kept_[1]) {
     if (kept.becomes < 0 || kept.joins != 0U) continue;
     Ranges& entering = entering_[static_cast<std::size_t>(kept.becomes)];
-    entering &= kept.lives || kept.fence ? 0U : ~ranges_of(kept.constraint);
+    entering &= kept.lives || kept.fence ? 0U : ~ranges_of(fading(1, kept));
   }
 }
 
-void Blend::put(const std::vector<Wanted>& wanted, double progress) noexcept {
+void Blend::advance(double progress) noexcept {
   if (progress >= 1.0) count_ = 1;
-  is_put_ = true;
   horizon_ = std::max(solver::limit_horizon, (1.0 - progress) * duration_);
   sets_[0].share = count_ == 1 ? 1.0 : progress;
   for (std::size_t set = 1; set < count_; ++set) sets_[set].share = share_from_[set] * (1.0 - progress);
+}
+
+void Blend::put(const std::vector<Wanted>& wanted, double progress) noexcept {
+  advance(progress);
+  is_put_ = true;
   put_newest(wanted);
   for (std::size_t set = 1; set < count_; ++set) put_before(set, wanted);
 }
@@ -305,30 +348,36 @@ void Blend::put_before(std::size_t index, const std::vector<Wanted>& wanted) noe
     const Wanted* to = kept.becomes < 0 ? nullptr : &wanted[static_cast<std::size_t>(kept.becomes)];
     kept.place = -1;
     if (to != nullptr && to->far && (kept.lives || kept.joins != 0U)) continue;
-    const AxisConstraint c = present(kept, wanted);
-    const InForce source{to == nullptr ? kept.origin : to->origin, to != nullptr, c.driver.has_value(),
-                         set.share};
+    if (to == nullptr && kept.fades < 0) continue;
+    const AxisConstraint& c = kept.fades >= 0 ? fading(index, kept) : to->constraint;
+    const bool drives = kept.joins == 0U && c.driver;
+    const InForce source{to == nullptr ? kept.origin : to->origin, to != nullptr, drives, set.share};
     kept.place = add(set, c, source);
-    if (to == nullptr || !carries_on(c, to->constraint)) continue;
-    const int newest = kept_[0][static_cast<std::size_t>(kept.becomes)].place;
-    if (newest >= 0) sets_[0].in_force[static_cast<std::size_t>(newest)].alpha += set.share;
+    if (to == nullptr) continue;
+    if (kept.place >= 0) make_present(kept, *to, set.constraints[kept.place]);
+    if (drives) carry_on(kept, c, *to, set.share);
   }
 }
 
-/// The present form of a constraint that a set before keeps.
-AxisConstraint Blend::present(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept {
-  if (kept.becomes < 0) return kept.constraint;
-  const auto i = static_cast<std::size_t>(kept.becomes);
-  const AxisConstraint& to = wanted[i].constraint;
-  if (kept.lives) return to;
+/// The driver of a set before counts in the alpha of the one that it goes on as.
+void Blend::carry_on(const Kept& kept, const AxisConstraint& before, const Wanted& to,
+                     double share) noexcept {
+  if (!carries_on(before, to.constraint)) return;
+  const int newest = kept_[0][static_cast<std::size_t>(kept.becomes)].place;
+  if (newest >= 0) sets_[0].in_force[static_cast<std::size_t>(newest)].alpha += share;
+}
+
+/// The present form of a constraint that a set before keeps, from the one that it lives as, joins or fades
+/// from.
+void Blend::make_present(const Kept& kept, const Wanted& to, AxisConstraint& c) const noexcept {
+  if (kept.lives) return;
+  const Ranges entering = entering_[static_cast<std::size_t>(kept.becomes)];
   if (kept.joins != 0U) {
-    AxisConstraint c = ranges_alone(to, kept.joins);
-    stretch(entering_[i], c);
-    return c;
+    keep_ranges(kept.joins, c);
+    stretch(entering, c);
+  } else if (!to.far) {
+    tighten(to.constraint, entering, c);
   }
-  AxisConstraint c = kept.constraint;
-  if (!wanted[i].far) tighten(to, entering_[i], c);
-  return c;
 }
 
 int Blend::add(BlendedSet& set, const AxisConstraint& constraint, const InForce& source) noexcept {
@@ -365,10 +414,47 @@ void Blend::tighten(const AxisConstraint& to, Ranges entering, AxisConstraint& c
   if (carries_on(c, to)) c.driver->force = tighter(c.driver->force, to.driver->force);
 }
 
-void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept {
+void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed,
+                  double progress) noexcept {
+  if (count_ > 1) advance(progress);
+  renew_newest(wanted, renewed);
+  if (count_ == 1) return;
+  is_renewed_.assign(wanted.size(), 0);
+  for (const int i : renewed) is_renewed_[static_cast<std::size_t>(i)] = 1;
+  for (std::size_t set = 1; set < count_; ++set) renew_before(set, wanted);
+}
+
+void Blend::renew_newest(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept {
+  BlendedSet& set = sets_[0];
   for (const int i : renewed) {
     const int place = kept_[0][static_cast<std::size_t>(i)].place;
-    if (place >= 0) sets_[0].constraints[place] = wanted[static_cast<std::size_t>(i)].constraint;
+    if (place >= 0) set.constraints[place] = wanted[static_cast<std::size_t>(i)].constraint;
+  }
+  if (count_ == 1) return;
+  for (const Kept& kept : kept_[0]) {
+    if (kept.place < 0) continue;
+    InForce& source = set.in_force[static_cast<std::size_t>(kept.place)];
+    source.alpha = source.drives ? set.share : 1.0;
+    stretch(entering_[static_cast<std::size_t>(kept.index)], set.constraints[kept.place]);
+  }
+}
+
+/// A constraint that joins or fades has its present form anew, one that lives only its new values.
+void Blend::renew_before(std::size_t index, const std::vector<Wanted>& wanted) noexcept {
+  BlendedSet& set = sets_[index];
+  for (const Kept& kept : kept_[index]) {
+    if (kept.place < 0) continue;
+    InForce& source = set.in_force[static_cast<std::size_t>(kept.place)];
+    source.alpha = set.share;
+    if (kept.becomes < 0) continue;
+    const auto i = static_cast<std::size_t>(kept.becomes);
+    const Wanted& to = wanted[i];
+    const AxisConstraint& c = kept.fades >= 0 ? fading(index, kept) : to.constraint;
+    if (!kept.lives || is_renewed_[i] != 0) {
+      set.constraints[kept.place] = c;
+      make_present(kept, to, set.constraints[kept.place]);
+    }
+    if (source.drives) carry_on(kept, c, to, set.share);
   }
 }
 

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,11 +66,11 @@ class Blend {
   /// Blends what is in force with `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
   /// length until the next switch.
   void start(const std::vector<Wanted>& wanted, double duration) noexcept;
-  /// Whether one set is in force, by the last `put`. `renew` then has the effect of `put`, until a wanted
-  /// constraint comes into reach or goes out of it.
-  bool rests() const noexcept { return count_ == 1 && is_put_; }
-  /// Writes those of `wanted` that have new values, by their indices.
-  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept;
+  /// Whether `renew` has the effect of `put`, if no wanted constraint came into reach or went out of it since
+  /// the last `put`.
+  bool stays_put(double progress) const noexcept { return is_put_ && (count_ == 1 || progress < 1.0); }
+  /// Writes those of `wanted` that have new values, by their indices, and what the progress changes.
+  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed, double progress) noexcept;
   /// Puts the sets in force at `progress` (0 to 1, > 0).
   void put(const std::vector<Wanted>& wanted, double progress) noexcept;
 
@@ -84,10 +85,16 @@ class Blend {
  private:
   /// One bit a quantity.
   using Ranges = unsigned;
-  /// A constraint of a set, as it was put last.
+  /// The ranges that a constraint said last, and how firm they are.
+  struct Said {
+    std::optional<solver::Range> position, velocity, acceleration, force;
+    double weight = solver::infinity;
+  };
+  /// A constraint of a set. (It is small, because a switch copies each of them, mostly into a cold cache. So
+  /// the constraint itself stays in the set, and is copied only if it fades.)
   struct Kept {
-    solver::AxisConstraint constraint;
     int place = -1;  ///< in the set; -1: not in force
+    int fades = -1;  ///< index in `fading_`; -1: it lives or joins, and its values are in what is wanted now
     Origin origin;
     FrameKey move, in;
     bool always = false;
@@ -97,11 +104,13 @@ class Blend {
     int becomes = -1;    ///< index of what is wanted now along the same axis; -1: nothing is
     bool lives = false;  ///< it is what is wanted now, with its present values
     Ranges joins = 0;    ///< it is these ranges of what is wanted now, and nothing else
+    Said said;           ///< of `always`, when it was in force last, or listed
   };
   using KeptList = std::vector<Kept>;
 
   static Kept kept_of(const std::vector<Wanted>& wanted, std::size_t index) noexcept;
-  static int row_bound(const KeptList& kept) noexcept;
+  int row_bound(std::size_t set) const noexcept;
+  static Said said_by(const solver::AxisConstraint& constraint) noexcept;
   void make_room() noexcept;
   void drop(std::size_t set) noexcept;
   void recall(std::size_t set) noexcept;
@@ -109,22 +118,38 @@ class Blend {
   void push_front(const std::vector<Wanted>& wanted) noexcept;
   void relate(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
   void join_ranges(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
-  int match(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept;
+  int match(std::size_t set, const Kept& kept, const std::vector<Wanted>& wanted) const noexcept;
+  bool is_unchanged(std::size_t set, const Kept& kept, const Wanted& wanted) const noexcept;
+  void fade(std::size_t set, Kept& kept, const Wanted* now) noexcept;
+  const solver::AxisConstraint& put_last(std::size_t set, const Kept& kept) const noexcept {
+    return sets_[set].constraints.constraints()[static_cast<std::size_t>(kept.place)];
+  }
+  const solver::AxisConstraint& fading(std::size_t set, const Kept& kept) const noexcept {
+    return fading_[set][static_cast<std::size_t>(kept.fades)];
+  }
   void find_entering(const std::vector<Wanted>& wanted) noexcept;
+  void advance(double progress) noexcept;
+  void renew_newest(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept;
+  void renew_before(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
   void put_newest(const std::vector<Wanted>& wanted) noexcept;
   void put_before(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
-  solver::AxisConstraint present(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept;
+  void carry_on(const Kept& kept, const solver::AxisConstraint& before, const Wanted& to,
+                double share) noexcept;
+  void make_present(const Kept& kept, const Wanted& to, solver::AxisConstraint& c) const noexcept;
   static int add(BlendedSet& set, const solver::AxisConstraint& constraint, const InForce& source) noexcept;
   void stretch(Ranges entering, solver::AxisConstraint& c) const noexcept;
   void tighten(const solver::AxisConstraint& wanted, Ranges entering,
                solver::AxisConstraint& c) const noexcept;
 
   std::array<BlendedSet, most_sets> sets_;
-  std::array<KeptList, most_sets> kept_;        ///< of each set; of the newest one by what is wanted
+  std::array<KeptList, most_sets> kept_;  ///< of each set; of the newest one by what is wanted
+  /// The constraints of each set before that are no more what is wanted, as they were put last.
+  std::array<std::vector<solver::AxisConstraint>, most_sets> fading_;
   std::array<double, most_sets> share_from_{};  ///< of each set when the blend began
   std::size_t count_ = 0;
   int most_kept_rows_;
   std::vector<char> taken_;       ///< by what is wanted
+  std::vector<char> is_renewed_;  ///< the same
   std::vector<Ranges> carried_;   ///< by what is wanted: its ranges that a set has
   std::vector<Ranges> entering_;  ///< by what is wanted: its ranges that the set before did not have
   double duration_ = 0.0;

@@ -157,6 +157,7 @@ struct Scheduler::Parts final : Facts {
   void put_constraints() noexcept;
   void put() noexcept;
   void list_wanted() noexcept;
+  Wanted& new_wanted(std::size_t index) noexcept;
   void list_axis(const ActiveAxis& a) noexcept;
   void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
@@ -283,8 +284,9 @@ struct Scheduler::Parts final : Facts {
   Guards always_guards;
   std::vector<ActiveAxis> axes;  ///< those of `always` first
   std::size_t always_axes = 0;
-  std::vector<TaskSnapshot> left;  ///< of each task, when it was left last
-  std::vector<Wanted> wanted;
+  std::vector<TaskSnapshot> left;    ///< of each task, when it was left last
+  std::vector<Wanted> wanted;        ///< those of `always` first
+  std::size_t always_wanted = 0;     ///< as many of these, once they are listed
   std::vector<int> renewed;          ///< those of `wanted` with values that the last tick did not have
   bool values_are_due = true;        ///< of all that is wanted: another list, or other parameters
   bool reach_changed = true;         ///< another pair of features is in force, or one no more

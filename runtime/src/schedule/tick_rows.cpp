@@ -101,10 +101,15 @@ double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisS
   return std::max(most, least_braking);
 }
 
+/// An entry of `wanted` that says nothing yet: one more, or in the place of one that was listed before.
+Wanted& Scheduler::Parts::new_wanted(std::size_t index) noexcept {
+  return index < wanted.size() ? wanted[index] = {} : wanted.emplace_back();
+}
+
 /// The constant part of the axis's constraint until the next switch.
 void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
   const lang::Group& g = *a.group;
-  Wanted& w = wanted.emplace_back();
+  Wanted& w = new_wanted(a.wanted);
   w.origin = a.origin;
   w.always = a.origin.task == tasks.always();
   w.measured = a.says->target.signal >= 0;
@@ -161,7 +166,8 @@ void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
   const auto fence = static_cast<std::size_t>(a.fence);
   const std::size_t most = RegionFence::most_near;
   for (std::size_t k = 0; k < std::min(most, fences[fence].pair_count()); ++k) {
-    Wanted& w = wanted.emplace_back();
+    const std::size_t index = a.wanted + k;
+    Wanted& w = index < wanted.size() ? wanted[index] : wanted.emplace_back();
     w.origin = a.origin;
     w.always = a.origin.task == tasks.always();
     w.fence = true;
@@ -184,7 +190,7 @@ void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexc
 /// The constraint inside a region whose place is unknown: that of the first pair.
 void Scheduler::Parts::want_standstill(const ActiveAxis& a) noexcept {
   const lang::Group& g = *a.group;
-  solver::AxisConstraint& c = wanted[a.wanted].constraint;
+  solver::AxisConstraint& c = wanted[a.wanted].constraint = {};
   c.move = frames.attached(g.move);
   c.in = frames.attached(g.in);
   c.measure = solver::Measure::speed;
@@ -268,17 +274,21 @@ void Scheduler::Parts::put_in_reach(const ActiveAxis& a, const RegionFence& fenc
 }
 
 /// The constraints of `always` and of the active task. As many, and in the same order, until the next switch.
+/// Those of `always` are listed again in their places.
 void Scheduler::Parts::list_wanted() noexcept {
-  wanted.clear();
+  wanted.resize(always_wanted);
   values_are_due = true;
-  for (ActiveAxis& a : axes) {
-    a.wanted = wanted.size();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    ActiveAxis& a = axes[i];
+    const bool is_listed = i < always_axes && always_wanted > 0;
+    if (!is_listed) a.wanted = wanted.size();
     if (a.fence >= 0) {
       list_fence(a);
     } else if (says_something(*a.says)) {
       list_axis(a);
       if (a.plane >= 0) list_plane(a);
     }
+    if (!is_listed && i + 1 == always_axes) always_wanted = wanted.size();
   }
 }
 
@@ -340,14 +350,16 @@ void Scheduler::Parts::put_constraints() noexcept {
 
 void Scheduler::Parts::put() noexcept {
   const bool is_same_list = !std::exchange(reach_changed, false);
-  if (is_same_list && blend->rests()) {
-    blend->renew(wanted, renewed);
-    return;
-  }
-  if (is_at_end()) keep_energy_from_rising();
+  const bool is_blending = blend->sets().size() > 1;
+  if (is_blending && is_at_end()) keep_energy_from_rising();
   // The tick of the switch already goes one tick's way, so that no share is ever 0.
   double progress = blend_time > 0.0 ? (now - switched + period) / blend_time : 1.0;
   if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;
+  if (is_same_list && blend->stays_put(progress)) {
+    blend->renew(wanted, renewed, progress);
+    for (std::size_t i = 0; i < blend->sets().size(); ++i) row_sets[i].share = blend->sets()[i].share;
+    return;
+  }
   blend->put(wanted, progress);
   sources.clear();
   for (std::size_t i = 0; i < blend->sets().size(); ++i) {

@@ -20,6 +20,12 @@ namespace {
 
 using solver::Range;
 
+bool is_same(const solver::AttachedFrame& one, const solver::AttachedFrame& other) {
+  return one.body == other.body && one.pose.rotation == other.pose.rotation &&
+         one.pose.position == other.pose.position && one.twist.angular == other.twist.angular &&
+         one.twist.linear == other.twist.linear;
+}
+
 constexpr double broken = 1.0 + 1e-9;  // of what a side allows
 constexpr double near = 0.8;           // the same: comes into force with one that is broken
 constexpr double let_go = 0.7;         // the same: goes out of force
@@ -34,12 +40,23 @@ int place_of(const solver::AxisConstraint& c, int part) {
 
 void Scheduler::Parts::list_plane(const ActiveAxis& a) noexcept {
   const PlaneNorm& norm = planes[static_cast<std::size_t>(a.plane)];
-  const Wanted speed = wanted.back();
   for (int i = 0; i < norm.count(); ++i) {
-    Wanted& w = wanted.emplace_back(speed);
+    const std::size_t index = a.wanted + 1 + static_cast<std::size_t>(i);
+    const bool is_new = index == wanted.size();
+    if (is_new) wanted.emplace_back();
+    const Wanted& speed = wanted[a.wanted];
+    Wanted& w = wanted[index];
+    w.origin = speed.origin;
     w.origin.part = i;
+    w.move = speed.move;
+    w.in = speed.in;
+    w.always = speed.always;
+    w.measured = speed.measured;
+    w.lost = speed.lost;
     w.far = false;  // until one set is in force: each set keeps its own solution within the norm
-    w.constraint = norm.constraint(i, speed.constraint.move, speed.constraint.in);
+    const solver::AxisConstraint& along = speed.constraint;
+    if (!is_new && is_same(w.constraint.move, along.move) && is_same(w.constraint.in, along.in)) continue;
+    w.constraint = norm.constraint(i, along.move, along.in);
     w.constraint.level = a.says->level;
   }
 }

@@ -81,7 +81,7 @@ void BoundedProblem::set_row(int i, const Row& row, const double* B, double free
   Entry& e = entry(i);
   e.twin = -1;
   e.axis = i;
-  last_on_axis_[static_cast<std::size_t>(i)] = -1;
+  last_on_axis_[static_cast<std::size_t>(i)] = {};
   e.B = B;
   e.extent = extent_of(e.B);
   const double squared = dot(e.extent, e.B, e.B);

@@ -79,7 +79,7 @@ class BoundedProblem {
     double reached = 0.0;        ///< of the first row on an axis: B_i.p of the solution
     int reach_extent = 0;        ///< of V_i and P_i
     int projected_at = -1;       ///< level of V_i and P_i
-    int limit_before = -1;       ///< along the same axis
+    int limit_before = -1;       ///< on the same side of the same axis
     bool has_bounds = false;     ///< lo and hi are finite, but on a sum
     bool is_idle = false;        ///< a limit that has nothing to do beside another one of its level
     bool blocked = false;        ///< the levels above leave it no freedom
@@ -202,8 +202,8 @@ class BoundedProblem {
   bool brake(int forces, int level, int max_iterations) noexcept;
   bool share_torque(int forces, int level, int max_iterations) noexcept;
 
-  /// Of the firm limits of the levels above along one axis those that leave the least room; -1 for none.
-  struct NearestAbove {
+  /// A limit of each side of an axis; -1 for none.
+  struct Sides {
     int upper = -1, lower = -1;
   };
   /// Rows along the same axis share it.
@@ -216,7 +216,7 @@ class BoundedProblem {
   bool recall_limits() noexcept;
   void fold_driver_beyond(int limit) noexcept;
   bool has_clear_room(int i) noexcept;
-  bool folded_limits_rest() noexcept;
+  bool folded_limits_rest(std::size_t first) noexcept;
   void release_drivers() noexcept;
   void unfold_limits() noexcept;
 
@@ -282,15 +282,15 @@ class BoundedProblem {
   std::vector<int> awake_, idle_;  ///< all rows: those that take part, and limits without anything to do
   std::vector<int> sums_;
   std::vector<int> forces_, motions_,
-      limits_above_;                   ///< rows of the present level that take part, by what they are
-  int next_level_ = 0;                 ///< the one below it
-  std::vector<int> last_on_axis_;      ///< by axis: the last limit
-  std::vector<int> posed_;             ///< row of each variable of the present stage
-  std::vector<int> folded_;            ///< rows of the present stage that need not be solved for
-  std::vector<int> waiting_;           ///< limits that join it when it would break them
-  std::vector<NearestAbove> nearest_;  ///< by axis
-  std::vector<double> units_;          ///< force of a unit of each variable
-  std::vector<int> tied_;              ///< rows of the present stage whose multipliers are not unique
+      limits_above_;                 ///< rows of the present level that take part, by what they are
+  int next_level_ = 0;               ///< the one below it
+  std::vector<Sides> last_on_axis_;  ///< by axis: the last limit of each side
+  std::vector<int> posed_;           ///< row of each variable of the present stage
+  std::vector<int> folded_;          ///< rows of the present stage that need not be solved for
+  std::vector<int> waiting_;         ///< limits that join it when it would break them
+  std::vector<Sides> nearest_;  ///< by axis: of the firm limits of the levels above those with the least room
+  std::vector<double> units_;   ///< force of a unit of each variable
+  std::vector<int> tied_;       ///< rows of the present stage whose multipliers are not unique
   QuadraticProgram program_;
 };
 

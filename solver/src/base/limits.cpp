@@ -53,12 +53,14 @@ void BoundedProblem::mark_idle_limits() noexcept {
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
     if (!e.is_limit || e.softness != 0.0 || e.out) continue;
-    const double side = e.kind == RowKind::upper ? 1.0 : -1.0;
-    // The list of an axis holds no idle ones: it stays as short as there are levels, sides and equal limits.
-    int& last = last_on_axis_[axis_of(i)];
+    const bool is_upper = e.kind == RowKind::upper;
+    const double side = is_upper ? 1.0 : -1.0;
+    // The list of a side of an axis holds no idle ones: it stays as short as there are levels and equal
+    // limits.
+    int& last = is_upper ? last_on_axis_[axis_of(i)].upper : last_on_axis_[axis_of(i)].lower;
     for (int* k = &last; *k >= 0 && !e.is_idle;) {
       Entry& other = entry(*k);
-      if (other.kind == e.kind && other.level == e.level) {
+      if (other.level == e.level) {
         e.is_idle = is_beyond(d_(i), d_(*k), side);
         other.is_idle = is_beyond(d_(*k), d_(i), side);
       }
@@ -117,7 +119,7 @@ void BoundedProblem::find_nearest_above(int level) noexcept {
 bool BoundedProblem::gives_in(int i, int level) noexcept {
   Entry& e = entry(i);
   const bool is_upper = e.kind == RowKind::upper;
-  const NearestAbove& nearest = nearest_[axis_of(i)];
+  const Sides& nearest = nearest_[axis_of(i)];
   const int opposite = is_upper ? nearest.lower : nearest.upper;
   if (e.level != level || !is_firm_limit(i, level) || opposite < 0) return false;
   if (!is_beyond(target_of(opposite), target_of(i), is_upper ? 1.0 : -1.0)) return false;
@@ -176,10 +178,11 @@ void BoundedProblem::fold_driver_beyond(int limit) noexcept {
   }
 }
 
-/// Whether the motion in work_ leaves the folded limits as assumed: clear room for the limits without force,
-/// clearly none for the others. A limit between the two may share a force with another one.
-bool BoundedProblem::folded_limits_rest() noexcept {
-  return std::all_of(folded_.begin(), folded_.end(), [this](int i) { return has_clear_room(i); });
+/// Whether the motion in work_ leaves the first folded limits as assumed: clear room for the limits without
+/// force, clearly none for the others. A limit between the two may share a force with another one.
+bool BoundedProblem::folded_limits_rest(std::size_t first) noexcept {
+  return std::all_of(folded_.begin(), folded_.begin() + static_cast<std::ptrdiff_t>(first),
+                     [this](int i) { return has_clear_room(i); });
 }
 
 /// Of a limit without force at work_; of a row that pushes in vain, that it clearly misses what it wants.

@@ -197,8 +197,13 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   if (motors_reach_all_) {
     fold_limits(level);
     exact = find_motion(level, max_iterations);
-    if (recall_limits()) exact = find_motion(level, max_iterations);
-    if (!folded_limits_rest()) {
+    std::size_t unsure =
+        folded_.size();  // those that are folded for their room have it where none is recalled
+    if (recall_limits()) {
+      exact = find_motion(level, max_iterations);
+      unsure = folded_.size();
+    }
+    if (!folded_limits_rest(unsure)) {
       release_drivers();
       unfold_limits();
       exact = find_motion(level, max_iterations);

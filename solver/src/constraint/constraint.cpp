@@ -11,6 +11,8 @@ namespace zwang::solver {
 
 namespace {
 
+constexpr std::size_t most_measured = 12;  // axes to look at before one is measured again
+
 double wrap_to_pi(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }
@@ -207,12 +209,15 @@ ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity, double h
     throw std::invalid_argument("constraint set: capacities must be at least 1");
   }
   constraints_.reserve(static_cast<std::size_t>(constraint_capacity));
+  carried_.reserve(static_cast<std::size_t>(constraint_capacity));
+  measured_.reserve(most_measured);
   coordinates_.reserve(static_cast<std::size_t>(constraint_capacity));
   rows_.reserve(static_cast<std::size_t>(row_capacity));
 }
 
 void ConstraintSet::clear() noexcept {
   constraints_.clear();
+  carried_.clear();
   coordinates_.clear();
   rows_.clear();
 }
@@ -220,6 +225,7 @@ void ConstraintSet::clear() noexcept {
 bool ConstraintSet::add(const AxisConstraint& constraint) noexcept {
   if (constraints_.size() == constraints_.capacity()) return false;
   constraints_.push_back(constraint);
+  carried_.emplace_back();
   return true;
 }
 
@@ -247,6 +253,7 @@ bool ConstraintSet::fill(BodyMotions& motions) noexcept {
 bool ConstraintSet::fill_all(BodyMotions& motions) noexcept {
   coordinates_.clear();
   rows_.clear();
+  measured_.clear();
   is_driven_back_ = false;
   has_folded_ = false;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
@@ -263,14 +270,10 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
   if (is_carried(constraint)) {
     along.body = constraint.move.body;
     const MotionVector V = motions.twist_of(along.body);
-    along.a = carried_force(constraint, V);
+    along.a = carried_force_of(index, V);
     now = carried_coordinate(constraint, along.a, V);
   } else {
-    FrameMotion move, in;
-    const FrameMotion& f = motions.of(constraint.move, move);
-    const Measurement measured = measure(constraint, f, motions.of(constraint.in, in));
-    now = measured.now;
-    acts = !measured.is_degenerate && put_force(constraint, measured, f.pose.position, motions, along);
+    acts = measure_between_frames(constraint, now, along, motions);
   }
   if (is_slow(constraint, now)) return true;
   if (!acts) return true;
@@ -292,6 +295,43 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
     sum->hi = constraint.force->high;
   }
   return push_ranges(constraint, now, along);
+}
+
+/// Constant in the body, but along a motion.
+const ForceVector& ConstraintSet::carried_force_of(int index, const MotionVector& V) noexcept {
+  const AxisConstraint& constraint = constraints_[static_cast<std::size_t>(index)];
+  std::optional<ForceVector>& force = carried_[static_cast<std::size_t>(index)];
+  const bool is_along_motion = constraint.measure == Measure::speed || constraint.measure == Measure::turn;
+  if (!force || is_along_motion) force = carried_force(constraint, V);
+  return *force;
+}
+
+/// The coordinate, and the force along it. Groups of ranges mostly measure the same few axes: each axis is
+/// measured once. False where no force acts.
+bool ConstraintSet::measure_between_frames(const AxisConstraint& constraint, Coordinate& now, Row& along,
+                                           BodyMotions& motions) noexcept {
+  const bool is_axis = constraint.measure == Measure::axis;
+  for (std::size_t k = 0; k < measured_.size() && is_axis; ++k) {
+    const Measured& m = measured_[k];
+    if (!is_same_axis(constraint, constraints_[static_cast<std::size_t>(m.constraint)])) continue;
+    now = coordinates_[static_cast<std::size_t>(m.constraint)];
+    along.body = m.body;
+    along.reference_body = m.reference_body;
+    along.a = m.a;
+    along.a_reference = m.a_reference;
+    return m.acts;
+  }
+  FrameMotion move, in;
+  const FrameMotion& f = motions.of(constraint.move, move);
+  const Measurement measured = measure(constraint, f, motions.of(constraint.in, in));
+  now = measured.now;
+  const bool acts =
+      !measured.is_degenerate && put_force(constraint, measured, f.pose.position, motions, along);
+  if (is_axis && measured_.size() < measured_.capacity()) {
+    measured_.push_back({static_cast<int>(coordinates_.size()) - 1, along.body, along.reference_body, along.a,
+                         along.a_reference, acts});
+  }
+  return acts;
 }
 
 /// The row of the driver, the ranges of its axis folded into a motion driver.

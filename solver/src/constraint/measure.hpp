@@ -28,6 +28,19 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
   return in.body >= 0 && in.body == move.body;
 }
 
+/// The twist of a frame on a body is ignored.
+inline bool is_same(const AttachedFrame& one, const AttachedFrame& other) noexcept {
+  const bool moves = one.body < 0;
+  return one.body == other.body && one.pose.position == other.pose.position &&
+         one.pose.rotation == other.pose.rotation &&
+         !(moves && (one.twist.linear != other.twist.linear || one.twist.angular != other.twist.angular));
+}
+
+/// Of two constraints along axes of frames.
+inline bool is_same_axis(const AxisConstraint& one, const AxisConstraint& other) noexcept {
+  return one.axis == other.axis && is_same(one.move, other.move) && is_same(one.in, other.in);
+}
+
 /// Whether the constraint measures along axes that the moved body carries. Motion then counts relative to the
 /// world, and the unit force a is constant in the body. So ds = a . V and dds = a . A + gamma, with gamma 0
 /// except for a `side`.

@@ -139,7 +139,7 @@ inline void dot_two(int count, const double* x, const double* y, const double* z
 }
 
 /// x . y, for `count` numbers.
-inline double dot(int count, const double* x, const double* y) {
+inline double dot_any(int count, const double* x, const double* y) {
   Two sum = {}, other = {};  // neither waits for the other
   int k = 0;
   for (; k + 4 <= count; k += 4) {
@@ -153,6 +153,13 @@ inline double dot(int count, const double* x, const double* y) {
   }
   const double rest = k < count ? x[k] * y[k] : 0.0;
   return sum[0] + sum[1] + rest;
+}
+
+/// The same. Mostly these are the three motions of a base that goes everywhere: without loops, and to the
+/// same last bit. (0.0 + -0.0 is 0.0.)
+inline double dot(int count, const double* x, const double* y) {
+  if (count == 3) return (0.0 + x[0] * y[0]) + x[1] * y[1] + x[2] * y[2];
+  return dot_any(count, x, y);
 }
 
 }  // namespace zwang::solver

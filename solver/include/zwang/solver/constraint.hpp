@@ -153,7 +153,10 @@ class ZWANG_EXPORT ConstraintSet {
   bool add(const AxisConstraint& constraint) noexcept;  ///< false when full
   const std::vector<AxisConstraint>& constraints() const noexcept { return constraints_; }
   /// `i`: from 0 to the number of constraints less 1; not checked.
-  AxisConstraint& operator[](int i) noexcept { return constraints_[static_cast<std::size_t>(i)]; }
+  AxisConstraint& operator[](int i) noexcept {
+    carried_[static_cast<std::size_t>(i)].reset();
+    return constraints_[static_cast<std::size_t>(i)];
+  }
 
   /// Computes every coordinate and row. The state is sized for the model. False when the rows exceed the
   /// capacity: the rows are then a part.
@@ -171,11 +174,24 @@ class ZWANG_EXPORT ConstraintSet {
   bool push_driver(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
   bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
   Row* push(const Row& row) noexcept;  ///< null when full
+  bool measure_between_frames(const AxisConstraint& constraint, Coordinate& now, Row& along,
+                              BodyMotions& motions) noexcept;
+  const ForceVector& carried_force_of(int index, const MotionVector& V) noexcept;
 
   double horizon_;
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
   std::vector<Row> rows_;
+  /// By constraint: the force along axes that the moved body carries, since the constraint was written.
+  std::vector<std::optional<ForceVector>> carried_;
+  /// An axis between two frames, as it was measured in the present `fill`.
+  struct Measured {
+    int constraint = 0;  ///< the first one that measures it
+    int body = 0, reference_body = -1;
+    ForceVector a, a_reference;
+    bool acts = false;
+  };
+  std::vector<Measured> measured_;
   bool folds_ = true;
   bool has_folded_ = false;      ///< a motion driver has ranges beside it
   bool is_driven_back_ = false;  ///< a coordinate is outside of a position range
