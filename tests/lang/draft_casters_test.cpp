@@ -77,6 +77,42 @@ TEST_F(DraftOfCasters, the_bracket_of_a_caster_that_turns_is_no_support) {
   EXPECT_EQ(joints(drawn.casters), JointNames{"caster_wheel_joint"});
 }
 
+// Right below its swivel a free wheel has no trail that turns it: it would hold the base sideways. It is a
+// ball.
+TEST_F(DraftOfCasters, a_wheel_right_below_its_free_swivel_is_a_ball) {
+  const std::string bracket =
+      "<collision><geometry><cylinder radius='.01' length='.03'/></geometry></collision>";
+  const auto caster = [&](const std::string& behind) {
+    return draft(beside_pair + beside_part("caster_base", "base_link", "-.2 0 -.02", "fixed", bracket) +
+                 beside_part("caster_fork", "base_link", "-.2 0 -.03", "continuous",
+                             beside_inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
+                 beside_wheel("caster_wheel", behind + " 0 -.02", ".03", "", "caster_fork"));
+  };
+  const RobotDraft below = caster("0");
+  EXPECT_EQ(below.supports, JointNames{"caster_wheel"}) << below.text;
+  EXPECT_NE(below.text.find("fixed: [caster_fork_joint, caster_wheel_joint]"), std::string::npos)
+      << below.text;
+  ASSERT_FALSE(below.assumed.empty());
+  EXPECT_EQ(below.assumed.front().robot.model.wheels().size(), 2U);
+  EXPECT_EQ(joints(caster("-.02").casters), JointNames{"caster_wheel_joint"});
+}
+
+// The wheels' rectangle reaches as far behind as the casters do, and ahead as far as the wheels.
+TEST_F(DraftOfCasters, the_outline_of_wheels_ends_where_they_end) {
+  const std::string mesh = "<link name='base_link'>" + beside_inertial("20", ".6") +
+                           "<collision><geometry><mesh filename='a.stl'/></geometry></collision></link>";
+  const RobotDraft drawn = test::drafted(
+      folder_, "<robot name='r'>" + mesh + beside_pair +
+                   beside_part("caster_fork", "base_link", "-.4 0 -.03", "continuous",
+                               beside_inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
+                   beside_wheel("caster_wheel", "-.02 0 -.02", ".03", "", "caster_fork") + "</robot>");
+  EXPECT_NE(
+      drawn.text.find("# polygon: [[0.08 m, 0.2 m], [-0.45 m, 0.2 m], [-0.45 m, -0.2 m], [0.08 m, -0.2 m]]"),
+      std::string::npos)
+      << drawn.text;
+  EXPECT_NE(drawn.text.find("The wheels alone reach 0.53 m x 0.4 m"), std::string::npos) << drawn.text;
+}
+
 // Stiff wheels of two sizes on one base would drag: the small ones are casters that are drawn without
 // swivels.
 TEST_F(DraftOfCasters, small_wheels_that_do_not_steer_carry_the_base) {

@@ -174,8 +174,8 @@ Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::
       error("E810", span,
             "the wheels do not stand on one level: " + in_ticks(wheel) + " ends " + in_length(above) +
                 " above " + in_ticks(other),
-            "mend a `radius`, or the height of the joint's <origin> in the URDF: where it ends is origin z - "
-            "radius"),
+            "mend a `radius`; or, if a spring, a rocker or the drawing holds it so high, write `drop: " +
+                in_length(above) + "`: it stands that much lower than the URDF draws it"),
       other_span, "this one reaches lowest");
 }
 

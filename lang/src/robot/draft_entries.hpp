@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/draft_bodies.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -19,8 +20,10 @@ std::string fixed_entry(const std::vector<std::string>& joints);
 
 /// A steering gets as much rotor inertia as it turns: a servo has that behind its gear. Without it a push on
 /// a light wheel turns the steering, and wheels that toe hold the base. Empty where two driven wheels on the
-/// swivel hold it, and where the URDF gives what it turns no inertia.
-std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint);
+/// swivel hold it, and where the URDF gives what it turns no inertia. `bodies`: links to which the draft
+/// gives another one.
+std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::vector<DraftBody>& bodies,
+                           const std::string& joint);
 
 /// [rad] Of steered swivels whose wheels do not roll ahead as they are drawn: where they do.
 std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels& found);

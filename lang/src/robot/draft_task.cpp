@@ -240,8 +240,9 @@ class Fitting {
 
   /// The shipped time allows for the shipped way: 0.5 m at 0.08 m/s, 5 cm at 1 cm/s.
   void fit_times(std::string& text) const {
+    static constexpr double longest = 600.0;  // [s] that the shipped range of the parameter allows
     const auto timeout = [](double seconds) {
-      return "timeout: {value: " + wording::figure(std::ceil(seconds / 5.0) * 5.0, "s");
+      return "timeout: {value: " + wording::figure(std::min(longest, std::ceil(seconds / 5.0) * 5.0), "s");
     };
     // A large base takes longer to swing around the corner that touches first. A drive that feels late takes
     // 15 s longer.

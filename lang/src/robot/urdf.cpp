@@ -9,6 +9,7 @@
 #include <mutex>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "diagnostic/wordings.hpp"
 #include "robot/possible_inertia.hpp"
@@ -101,8 +102,8 @@ UrdfJoint to_joint(const urdf::Joint& joint) {
     if (turns && joint.limits->lower < -without_end && joint.limits->upper > without_end)
       result.joint.type = solver::JointType::continuous;
     if (result.joint.type != solver::JointType::continuous) {
-      result.joint.lower = joint.limits->lower;
-      result.joint.upper = joint.limits->upper;
+      std::tie(result.joint.lower, result.joint.upper) =
+          std::minmax(joint.limits->lower, joint.limits->upper);
     }
   }
   return result;

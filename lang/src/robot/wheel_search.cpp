@@ -176,13 +176,18 @@ class WheelSearch {
     return (placed_.pose_of(link).position - foot).head<2>().norm();
   }
 
-  /// A caster may be drawn of several links of its name. A link without a round shape is no support if it
-  /// holds a round link, or a wheel of a caster. It holds one that stands nearer than the link is high.
+  /// On an upright cylinder nothing rolls.
+  static bool is_round_foot(const UrdfLink& link) {
+    return link.radius && !(link.cylinder_axis && std::abs(link.cylinder_axis->z()) > PlacedUrdf::upright);
+  }
+
+  /// A caster may be drawn of several links of its name. A link that does not roll is no support if it holds
+  /// a round link, or a wheel of a caster. It holds one that stands nearer than the link is high.
   void leave_brackets_out() {
     const std::optional<double> ground = this->ground();
     std::vector<solver::Vector3> feet;
     for (const std::string& name : found_.supports) {
-      if (urdf_.find_link(name)->radius)
+      if (is_round_foot(*urdf_.find_link(name)))
         feet.push_back(placed_.pose_of(name) * urdf_.find_link(name)->round_at);
     }
     for (const DraftWheel& caster : found_.casters)
@@ -190,9 +195,9 @@ class WheelSearch {
     if (!ground) return;
     std::erase_if(found_.supports, [&](const std::string& name) {
       const double height = placed_.pose_of(name).position.z() - *ground;
-      return !urdf_.find_link(name)->radius && std::any_of(feet.begin(), feet.end(), [&](const auto& foot) {
-        return beside(name, foot) < height;
-      });
+      return !is_round_foot(*urdf_.find_link(name)) &&
+             std::any_of(feet.begin(), feet.end(),
+                         [&](const auto& foot) { return beside(name, foot) < height; });
     });
   }
 
