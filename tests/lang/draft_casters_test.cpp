@@ -97,6 +97,23 @@ TEST_F(DraftOfCasters, a_wheel_right_below_its_free_swivel_is_a_ball) {
   EXPECT_EQ(joints(caster("-.02").casters), JointNames{"caster_wheel_joint"});
 }
 
+// A file may draw all parts in the base's frame, each link at 0 0 0: a mesh stands where its mass is.
+TEST_F(DraftOfCasters, a_caster_of_a_mesh_carries_where_its_mass_is) {
+  const std::string body =
+      "<inertial><origin xyz='-.2 0 -.05'/><mass value='.1'/><inertia ixx='1e-5' iyy='1e-5' izz='1e-5' "
+      "ixy='0' "
+      "ixz='0' iyz='0'/></inertial><collision><origin xyz='-.2 0 -.05'/><geometry><mesh filename='c.stl'/>"
+      "</geometry></collision>";
+  const RobotDraft drawn = draft(beside_pair + beside_part("caster", "base_link", "0 0 0", "fixed", body));
+  EXPECT_EQ(drawn.supports, JointNames{"caster"}) << drawn.text;
+  ASSERT_FALSE(drawn.assumed.empty());
+  const Robot& robot = drawn.assumed.front().robot;
+  ASSERT_EQ(robot.supports.size(), 1U);
+  const auto frame = robot.model.find_frame(robot.supports.front());
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(robot.model.frames()[static_cast<std::size_t>(*frame)].pose_in_body.position.x(), -0.2, 1e-9);
+}
+
 // The wheels' rectangle reaches as far behind as the casters do, and ahead as far as the wheels.
 TEST_F(DraftOfCasters, the_outline_of_wheels_ends_where_they_end) {
   const std::string mesh = "<link name='base_link'>" + beside_inertial("20", ".6") +

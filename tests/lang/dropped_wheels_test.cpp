@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "draft_of_habits.hpp"
 #include "zwang/lang/open_places.hpp"
@@ -88,6 +89,42 @@ TEST_F(DroppedWheels, go_down_below_a_tilted_rocker) {
     EXPECT_NEAR(at.z(), 0.0, 1e-9);
   }
   EXPECT_EQ(rear, 2);
+}
+
+/// Meshes tell no radius. Each wheel is of the file `mesh` + its number.
+std::string meshes_at(const std::string& rear_z, bool is_one) {
+  std::string text = raised_rear(rear_z);
+  int number = 0;
+  for (std::size_t at = 0;
+       (at = text.find("<cylinder radius='.08' length='.04'/>", at)) != std::string::npos;) {
+    const std::string file = is_one ? "wheel" : "wheel" + std::to_string(number++);
+    text.replace(at, 37, "<mesh filename='" + file + ".stl'/>");
+  }
+  return std::regex_replace(text, std::regex("collision"), "visual");
+}
+
+// Wheels of one mesh are as large as each other: one radius is asked for, and their axles tell the drops.
+TEST_F(DroppedWheels, of_one_mesh_have_one_radius) {
+  const auto draft = this->draft(folder_.write("mesh.urdf", meshes_at(".03", true)));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("each_wheel: {kind: FILL_IN, radius: FILL_IN}"), std::string::npos)
+      << draft->text;
+  EXPECT_NE(draft->text.find("{joint: front_left_wheel_joint}"), std::string::npos) << draft->text;
+  EXPECT_NE(draft->text.find("{joint: rear_left_wheel_joint, drop: 30 mm}"), std::string::npos)
+      << draft->text;
+  const auto others = this->draft(folder_.write("meshes.urdf", meshes_at(".03", false)));
+  EXPECT_NE(others->text.find("{joint: rear_left_wheel_joint, radius: FILL_IN}"), std::string::npos)
+      << others->text;
+}
+
+// All that has to be written is said at once.
+TEST_F(DroppedWheels, are_told_together) {
+  std::string text = as_skid(this->draft(folder_.write("raised.urdf", raised_rear(".02")))->text);
+  text = std::regex_replace(text, std::regex(", drop: 20 mm"), "");
+  const std::string said = said_of(text);
+  EXPECT_NE(said.find("`drop: 20 mm`: `rear_left_wheel_joint` 20 mm, `rear_right_wheel_joint` 20 mm"),
+            std::string::npos)
+      << said;
 }
 
 // A wheel that is drawn too low is raised by the others: each drop is a way down.

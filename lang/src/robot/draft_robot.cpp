@@ -227,7 +227,8 @@ class Drafter {
   bool share_radius() const {
     const auto height = [](const DraftWheel& a, const DraftWheel& b) { return a.at[2] < b.at[2]; };
     const auto [low, high] = std::minmax_element(found_.wheels.begin(), found_.wheels.end(), height);
-    return all(lacks_radius) && (found_.wheels.empty() || high->at[2] - low->at[2] < least_wheel_lift);
+    return all(lacks_radius) && (found_.wheels.empty() || share_mesh(found_.wheels) ||
+                                 high->at[2] - low->at[2] < least_wheel_lift);
   }
 
   std::string each_wheel(const Filling& filling) const {

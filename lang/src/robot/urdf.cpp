@@ -235,6 +235,28 @@ void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
   }
 }
 
+/// File and scale of the first mesh that a link shows. A mirrored mesh is as large.
+std::string mesh_of(const std::vector<XmlElement>& elements, const std::string& link) {
+  const auto is_in = [&](const XmlElement& element, const char* kind) {
+    return element.parent >= 0 && elements[static_cast<std::size_t>(element.parent)].name == kind;
+  };
+  const auto link_of = [&](const XmlElement& element) {
+    const XmlElement* above = &element;
+    while (above->parent > 0) above = &elements[static_cast<std::size_t>(above->parent)];
+    const XmlAttribute* name = above->name == "link" ? above->find("name") : nullptr;
+    return name == nullptr ? std::string() : name->value;
+  };
+  for (const XmlElement& element : elements) {
+    const XmlAttribute* file = element.name == "mesh" ? element.find("filename") : nullptr;
+    if (file == nullptr || !is_in(element, "geometry") || link_of(element) != link) continue;
+    const XmlAttribute* scale = element.find("scale");
+    std::string text = scale == nullptr ? "1 1 1" : scale->value;
+    std::erase(text, '-');
+    return file->value + " " + text;
+  }
+  return "";
+}
+
 template <typename Items, typename Match>
 auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
   const auto it = std::find_if(items.begin(), items.end(), match);
@@ -252,6 +274,7 @@ void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>
     }
     find_round_shape(link->collision_array, result);
     if (!result.radius) find_round_shape(link->visual_array, result);
+    result.mesh = mesh_of(elements, name);
     if (link->inertial && !findings.weightless.contains(name))
       result.inertia = to_inertia(*link->inertial, findings.point_masses.contains(name));
     urdf.links.push_back(std::move(result));

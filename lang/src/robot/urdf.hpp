@@ -27,6 +27,7 @@ struct UrdfLink {
   std::optional<solver::Vector3> cylinder_axis;        ///< unit vector in the link, where that is a cylinder
   solver::Vector3 round_at = solver::Vector3::Zero();  ///< [m] in the link, the middle of that shape
   std::vector<solver::Vector3> corners;  ///< [m] in the link, of the shapes that collide; a mesh has none
+  std::string mesh;  ///< file and scale of the first mesh that is seen; links that share one are as large
 };
 
 /// A <mimic>: another joint that this one follows.

@@ -85,6 +85,7 @@ class WheelSearch {
     DraftWheel wheel;
     wheel.joint = joint.joint.name;
     wheel.link = joint.child;
+    wheel.mesh = urdf_.find_link(joint.child)->mesh;
     const solver::Vector3& at = placed_.place_of(joint);
     const solver::Vector3 axle = placed_.axis_of(joint);
     wheel.at = {at.x(), at.y(), at.z()};
