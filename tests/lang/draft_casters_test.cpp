@@ -202,21 +202,27 @@ TEST_F(DraftOfCasters, wheels_beside_some_without_a_motor_skid) {
   EXPECT_EQ(drawn.text.find("kind: FILL_IN"), std::string::npos) << drawn.text;
 }
 
-// A wheel of 0.003 kg m^2 and a fork of 0.0001 kg m^2 and 1 kg, 10 cm beside the pivot's axis:
-// 0.0031 + 1 x 0.1^2 = 0.0131 kg m^2, and two digits above.
+// A wheel of 0.003 kg m^2 and a fork of 0.0001 kg m^2 and 1 kg, 20 cm beside the pivot's axis:
+// 0.0031 + 1 x 0.2^2 = 0.0431 kg m^2, and two digits above.
+// Below it: 26 kg on four wheels of 80 mm take 26 x 9.81 x 0.08 / 4 = 5.1 N m to scrub a tyre around. With
+// 150 rad/s^2 that is a rotor of 0.034 kg m^2, however light the fork.
 TEST_F(DraftOfCasters, a_cars_steering_has_as_much_rotor_inertia_as_it_turns) {
-  const auto steered = [](const std::string& name, const std::string& xyz) {
-    const std::string fork =
-        "<inertial><origin xyz='.1 0 0'/><mass value='1'/><inertia ixx='.0001' iyy='.0001' "
-        "izz='.0001' ixy='0' ixz='0' iyz='0'/></inertial>";
+  const auto steered = [](const std::string& name, const std::string& xyz, const std::string& beside) {
+    const std::string fork = "<inertial><origin xyz='" + beside +
+                             " 0 0'/><mass value='1'/><inertia ixx='.0001' iyy='.0001' "
+                             "izz='.0001' ixy='0' ixz='0' iyz='0'/></inertial>";
     return beside_part(name + "_steering", "base_link", xyz, "revolute", fork,
                        "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='5' velocity='5'/>") +
            beside_wheel(name + "_wheel", "0 0 0", ".08", "", name + "_steering");
   };
-  const RobotDraft drawn =
-      draft(beside_pair + steered("front_left", ".4 .2 0") + steered("front_right", ".4 -.2 0"));
-  EXPECT_NE(drawn.text.find("front_left_steering_joint: {rotor_inertia: 0.014 kg m^2}"), std::string::npos)
-      << drawn.text;
+  for (const auto& [beside, rotor] : {std::pair{".2", "0.044"}, {".1", "0.035"}}) {
+    const RobotDraft drawn = draft(beside_pair + steered("front_left", ".4 .2 0", beside) +
+                                   steered("front_right", ".4 -.2 0", beside));
+    EXPECT_NE(
+        drawn.text.find("front_left_steering_joint: {rotor_inertia: " + std::string(rotor) + " kg m^2}"),
+        std::string::npos)
+        << drawn.text;
+  }
 }
 
 // Wheels with rollers hold no side force, and a base on them turns about its origin.

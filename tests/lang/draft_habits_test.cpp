@@ -271,13 +271,13 @@ std::string steered_with(const std::string& moments) {
   return text + "</robot>";
 }
 
-// 1 kg m^2 of a wheel of 1 kg and 80 mm is a simulator's: under `inertias` the wheel counts as a disc, and
-// the rotor that steers it is as heavy as a ball of that size, 2 m r^2 / 5 = 0.0026 kg m^2, and the fork.
+// 1 kg m^2 of a wheel of 1 kg and 80 mm is a simulator's: under `inertias` the wheel counts as a disc, and no
+// rotor is as heavy as that. 24.02 kg x 9.81 m/s^2 x 0.08 m / 4 / 150 rad/s^2 = 0.0314 kg m^2.
 TEST_F(DraftOfHabits, a_steering_has_the_rotor_of_a_wheel_that_can_be) {
   const auto draft = this->draft(folder_.write("steer.urdf", steered_with("ixx='1' iyy='1' izz='1'")));
   ASSERT_TRUE(draft);
   EXPECT_NE(draft->text.find("front_left: {}"), std::string::npos) << draft->text;
-  EXPECT_NE(draft->text.find("steer_left: {rotor_inertia: 0.0026 kg m^2}"), std::string::npos) << draft->text;
+  EXPECT_NE(draft->text.find("steer_left: {rotor_inertia: 0.032 kg m^2}"), std::string::npos) << draft->text;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/gravity.hpp"
 #include "robot/placed_urdf.hpp"
 #include "robot/wheel_names.hpp"
 #include "zwang/lang/footing.hpp"
@@ -44,6 +45,19 @@ bool carries_a_wheel(const Urdf& urdf, const FoundWheels& found, const std::stri
     }
   }
   return false;
+}
+
+/// A tyre that scrubs resists a steering by at most its load times its radius, m g r / n, and a steering is
+/// as strong. With that torque it turns no faster than by 150 rad/s^2, a quarter turn in 0.14 s:
+///   J = m g r / (150 n)
+/// A lighter one gives way to the base's least sway, and wheels that toe hold the base.
+double slowest_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint) {
+  constexpr double fastest = 150.0;  // [rad/s^2]
+  const auto wheel = std::find_if(found.wheels.begin(), found.wheels.end(),
+                                  [&](const DraftWheel& other) { return other.swivel == joint; });
+  const std::size_t count = holding_wheels(found).size() + found.casters.size();
+  if (wheel == found.wheels.end()) return 0.0;
+  return urdf.mass() * gravity * wheel->radius.value_or(0.1) / (fastest * static_cast<double>(count));
 }
 
 /// A ball weighs about no axis less than the disc that a wheel counts as does across its own.
@@ -94,6 +108,7 @@ std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std
     const solver::RigidInertia own = body == bodies.end() ? link.inertia : as_ball(*body, link, found);
     inertia += axis.dot(own.expressed_in(from_swivel).rotational * axis);
   }
+  inertia = std::max(inertia, slowest_rotor(urdf, found, joint));
   return inertia > 0.0 ? "rotor_inertia: " + wording::figure(two_digits_above(inertia), "kg m^2") : "";
 }
 
