@@ -280,5 +280,18 @@ TEST_F(DraftOfHabits, a_steering_has_the_rotor_of_a_wheel_that_can_be) {
   EXPECT_NE(draft->text.find("steer_left: {rotor_inertia: 0.032 kg m^2}"), std::string::npos) << draft->text;
 }
 
+// Planners' files move the whole robot on rails, and have no wheels.
+TEST_F(DraftOfHabits, tells_rails_that_stand_for_wheels) {
+  const std::string link = inertial_element("1", "ixx='.1' iyy='.1' izz='.1'");
+  const std::string urdf = "<robot name='r'><link name='world'/><link name='along'>" + link + "</link>" +
+                           chassis() + joint_between("slide_x", "prismatic", "world", "along") +
+                           joint_between("slide_y", "prismatic", "along", "chassis") + "</robot>";
+  const auto draft = this->draft(folder_.write("rails.urdf", urdf));
+  ASSERT_TRUE(draft);
+  ASSERT_EQ(draft->stuck.size(), 2U) << draft->text;
+  EXPECT_EQ(draft->stuck.front().joint, "slide_x");
+  EXPECT_EQ(draft->stuck.front().how, "a rail that moves the whole robot");
+}
+
 }  // namespace
 }  // namespace zwang::lang

@@ -262,7 +262,27 @@ class WheelSearch {
     }
     if (!found_.wheels.empty()) return;
     if (found_.stuck.empty()) found_.stuck = casters;
+    if (found_.stuck.empty()) find_rails();
     if (found_.stuck.empty()) find_upright_wheels();
+  }
+
+  /// Planners move a whole robot by two slides and a turn, or by fewer, and leave its wheels out.
+  void find_rails() {
+    std::vector<StuckWheel> rails;
+    std::string link = urdf_.root;
+    for (std::size_t i = 0; i < most_links; ++i) {
+      const auto is_below = [&](const UrdfJoint& joint) { return joint.parent == link; };
+      const auto below = std::find_if(urdf_.joints.begin(), urdf_.joints.end(), is_below);
+      if (below == urdf_.joints.end() ||
+          std::count_if(urdf_.joints.begin(), urdf_.joints.end(), is_below) > 1)
+        break;
+      const bool slides = below->joint.type == solver::JointType::prismatic;
+      const double up = std::abs(placed_.axis_of(*below).z());
+      if (moves(*below) && (slides ? up > PlacedUrdf::level : up < PlacedUrdf::upright)) break;
+      if (moves(*below)) rails.push_back({below->joint.name, "a rail that moves the whole robot"});
+      link = below->child;
+    }
+    if (rails.size() > 1) found_.stuck = rails;
   }
 
   /// On the base, and turning without end about an axis that no wheel has.
