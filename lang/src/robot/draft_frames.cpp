@@ -25,18 +25,33 @@ std::string polygon_text(const std::vector<Eigen::Vector2d>& corners) {
   return "[" + text + "]";
 }
 
-/// As narrow as no base is. [m]
-constexpr double narrowest = 0.02;
-
-/// Around all wheels from above, each as long as it is high. The wheels of most bases stand on both sides of
-/// the base's origin; casters stand behind it alone.
-Eigen::AlignedBox2d around(const FoundWheels& found) {
-  Eigen::AlignedBox2d axles, wheels;
+std::vector<DraftWheel> all_wheels(const FoundWheels& found) {
   std::vector<DraftWheel> all = holding_wheels(found);
   all.insert(all.end(), found.casters.begin(), found.casters.end());
+  return all;
+}
+
+/// Around the base's origin, as far to each side as the farthest wheel: what a body that nobody drew may
+/// fill.
+Eigen::AlignedBox2d body_around(const FoundWheels& found) {
+  Eigen::Vector2d most{0.1, 0.1};
+  for (const DraftWheel& wheel : all_wheels(found)) {
+    most.x() = std::max(most.x(), std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
+    most.y() = std::max(most.y(), std::abs(wheel.at[1]));
+  }
+  return {-most, most};
+}
+
+/// Around the wheels alone, each as long as it is high. Casters often stand behind the base's origin only.
+/// Fewer than three wheels tell nothing of a body that stands on something else, too.
+Eigen::AlignedBox2d around_wheels_of(const FoundWheels& found) {
+  constexpr double narrowest = 0.02;  // [m] as narrow as no base is
+  const std::vector<DraftWheel> all = all_wheels(found);
+  if (all.size() < 3) return body_around(found);
+  Eigen::AlignedBox2d axles, wheels;
   for (const DraftWheel& wheel : all) axles.extend(Eigen::Vector2d(wheel.at[0], wheel.at[1]));
   // A mesh has no radius, and its wheel hardly reaches to the middle of the base.
-  const double unknown = axles.isEmpty() ? 0.1 : std::min(0.1, 0.5 * axles.diagonal().norm());
+  const double unknown = std::min(0.1, 0.5 * axles.diagonal().norm());
   for (const DraftWheel& wheel : all) {
     const Eigen::Vector2d at(wheel.at[0], wheel.at[1]);
     const Eigen::Vector2d ahead =
@@ -44,7 +59,6 @@ Eigen::AlignedBox2d around(const FoundWheels& found) {
     wheels.extend(Eigen::Vector2d(at + ahead));
     wheels.extend(Eigen::Vector2d(at - ahead));
   }
-  if (wheels.isEmpty()) wheels.extend(Eigen::Vector2d(0.0, 0.0));
   const Eigen::Vector2d wider =
       (0.5 * (Eigen::Vector2d(narrowest, narrowest) - wheels.sizes())).cwiseMax(0.0);
   return {wheels.min() - wider, wheels.max() + wider};
@@ -62,11 +76,11 @@ DraftFrames::DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind d
     : urdf_(urdf), found_(found), drive_(drive), options_(options) {}
 
 std::vector<Eigen::Vector2d> DraftFrames::outline() const {
-  return outline_is_known() ? found_.outline : rectangle(around(found_));
+  return outline_is_known() ? found_.outline : rectangle(body_around(found_));
 }
 
-std::string DraftFrames::around_wheels() const {
-  return polygon_text(rectangle(around(found_)));
+std::string DraftFrames::assumed_outline() const {
+  return polygon_text(rectangle(body_around(found_)));
 }
 
 bool DraftFrames::has_nose() const {
@@ -103,10 +117,11 @@ std::string DraftFrames::footprint(const std::string& open) const {
            "collision "
            "shapes that are\n# fixed to the base.\nfootprint: {polygon: " +
            polygon_text(found_.outline) + "}\n";
-  const Eigen::Vector2d sides = around(found_).sizes();
+  const Eigen::AlignedBox2d wheels = around_wheels_of(found_);
+  const Eigen::Vector2d sides = wheels.sizes();
   return "\n# The outline from above, counter-clockwise. The wheels alone reach " + metres(sides.x()) +
-         " x " + metres(sides.y()) + ":\n# polygon: " + around_wheels() + "\nfootprint: {polygon: " + open +
-         "}\n";
+         " x " + metres(sides.y()) + ":\n# polygon: " + polygon_text(rectangle(wheels)) +
+         "\nfootprint: {polygon: " + open + "}\n";
 }
 
 double DraftFrames::heading() const {

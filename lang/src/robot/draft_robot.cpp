@@ -87,7 +87,7 @@ class Drafter {
     Filling filling;
     filling.radius = wording::figure(assumed_radius(), "m");
     filling.effort = "1 N m";
-    filling.footprint = frames_.around_wheels();
+    filling.footprint = frames_.assumed_outline();
     filling.back = "-0.5 m";
     filling.base_mass = "10 kg";
     filling.mass = "0.1 kg";
