@@ -256,12 +256,12 @@ class Fitting {
       replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
   }
 
-  /// The way may be so much longer while the outline is not known. So it may where an arm does not reach as
-  /// far ahead as its joints are from the base's origin. [m]
+  /// The way may be so much longer while the outline is not known: the body may end behind the base's origin.
+  /// So it may where an arm does not reach as far ahead as its joints are from that origin. [m]
   double slack() const {
     double front = 0.0;
     for (const Eigen::Vector2d& corner : fit_.outline) front = std::max(front, corner.x());
-    return fit_.outline_is_known ? ahead(0.0) - front : ahead(0.0);
+    return fit_.outline_is_known ? ahead(0.0) - front : 2.0 * ahead(0.0);
   }
 
   double lever() const { return std::max(0.02, fit_.front_lever); }

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <numbers>
 #include <set>
-#include <tuple>
 
 #include "diagnostic/wordings.hpp"
 #include "robot/possible_inertia.hpp"
@@ -98,12 +97,13 @@ UrdfJoint to_joint(const urdf::Joint& joint) {
     // 0 is how URDFs say that they do not know.
     if (joint.limits->effort > 0.0) result.joint.max_effort = joint.limits->effort;
     if (joint.limits->velocity > 0.0) result.joint.max_velocity = joint.limits->velocity;
+    const auto [lower, upper] = std::minmax(joint.limits->lower, joint.limits->upper);
     const bool turns = result.joint.type == solver::JointType::revolute;
-    if (turns && joint.limits->lower < -without_end && joint.limits->upper > without_end)
+    if (turns && lower < -without_end && upper > without_end)
       result.joint.type = solver::JointType::continuous;
     if (result.joint.type != solver::JointType::continuous) {
-      std::tie(result.joint.lower, result.joint.upper) =
-          std::minmax(joint.limits->lower, joint.limits->upper);
+      result.joint.lower = lower;
+      result.joint.upper = upper;
     }
   }
   return result;
