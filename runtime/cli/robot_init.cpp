@@ -65,9 +65,12 @@ std::string why_no_task(const std::string& task, const lang::BaseFit& fit, const
 }
 
 /// The robot file was written, and no task.
-[[noreturn]] void refuse_task(const std::string& task, const lang::BaseFit& fit, const std::string& why) {
+[[noreturn]] void refuse_task(const std::string& task, const lang::BaseFit& fit,
+                              const lang::RobotDraft& draft, const std::string& why) {
+  const bool can_stand = !draft.assumed.empty();
   throw Impossible("--task " + task + ": not for `" + fit.robot + "`: " + why +
-                   ". `--task feel_wall` is for every base. No task was written");
+                   (can_stand && task != "feel_wall" ? ". `--task feel_wall` is for every base" : "") +
+                   ". No task was written");
 }
 
 /// The task and its scene, as texts.
@@ -231,7 +234,7 @@ int write_new(const RobotInitArguments& arguments) {
   written.write();
   print(written.report + "\n" + to_decide(files.robot.string(), draft->text) +
         titled_list("not in the URDF", draft->missing) + what_next(has_task, files, arguments.urdf));
-  if (!why_not.empty()) refuse_task(*arguments.task, fit, why_not);
+  if (!why_not.empty()) refuse_task(*arguments.task, fit, *draft, why_not);
   return exit_good;
 }
 
@@ -278,7 +281,7 @@ int update(const RobotInitArguments& arguments, const Files& files) {
         listed("kept, and the URDF says otherwise", changed->differ) +
         listed("to fill in", lang::open_places(changed->text).to_fill_in) +
         what_next(has_task, files, arguments.urdf));
-  if (!why_not.empty()) refuse_task(*arguments.task, fit, why_not);
+  if (!why_not.empty()) refuse_task(*arguments.task, fit, *draft, why_not);
   return exit_good;
 }
 

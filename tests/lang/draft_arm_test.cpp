@@ -2,6 +2,7 @@
 // of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -131,6 +132,36 @@ TEST(DraftOfABase, on_turned_rockers_is_told_of_no_grip_that_rounding_leaves) {
   folder.write("scene.yaml", texts.scene);
   EXPECT_TRUE(load(folder.write("task.yaml", texts.task), {}, diagnostics)) << test::rendered(diagnostics);
   EXPECT_EQ(test::rendered(diagnostics).find("W642"), std::string::npos) << test::rendered(diagnostics);
+}
+
+/// 5 kg on a slide that goes up by 0.5 m.
+std::string with_lift(double effort) {
+  UrdfText urdf(7, 1.0);
+  urdf.add(LinkShape{"base_link", 20.0, {}, {0.3, 0.5, 0.6}, urdf.box(0.6, 0.4, 0.1)});
+  add_driven_wheel(urdf, "left_wheel", "base_link", {0.0, 0.2, 0.0});
+  add_driven_wheel(urdf, "right_wheel", "base_link", {0.0, -0.2, 0.0});
+  urdf.add(LinkShape{"carriage", 5.0, {0.0, 0.0, 0.1}, {1e-2, 1e-2, 1e-2}, ""});
+  const std::string limit = "lower='0' upper='0.5' effort='" + UrdfText::number(effort) + "' velocity='1'";
+  urdf.add(
+      JointShape{"lift", "prismatic", "base_link", "carriage", {0.0, 0.0, 0.1}, {}, {0, 0, 1}, limit, ""});
+  return urdf.robot("r");
+}
+
+// 5 kg weigh 49.05 N. A URDF whose motor makes 1 N means a screw that holds, or knows no better: the lift
+// stays.
+TEST(DraftOfAnArm, holds_a_lift_that_the_motor_of_the_urdf_does_not) {
+  const test::Folder folder;
+  Diagnostics diagnostics;
+  const auto weak = draft_robot(folder.write("r.urdf", with_lift(1.0)), "r.urdf", diagnostics);
+  ASSERT_TRUE(weak);
+  EXPECT_NE(weak->text.find("fixed: [lift]"), std::string::npos) << weak->text;
+  EXPECT_EQ(weak->text.find("  lift: {"), std::string::npos) << weak->text;
+  const std::string told = "a motor that holds `lift`: it bears 49.1 N, the URDF's makes 1 N";
+  EXPECT_TRUE(std::any_of(weak->missing.begin(), weak->missing.end(),
+                          [&](const std::string& line) { return line.find(told) != std::string::npos; }));
+  EXPECT_EQ(drafted_from(with_lift(1.0)).said, "");
+  const auto strong = draft_robot(folder.write("s.urdf", with_lift(50.0)), "s.urdf", diagnostics);
+  EXPECT_NE(strong->text.find("  lift: {}"), std::string::npos) << strong->text;
 }
 
 }  // namespace

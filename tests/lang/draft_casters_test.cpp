@@ -77,6 +77,59 @@ TEST_F(DraftOfCasters, the_bracket_of_a_caster_that_turns_is_no_support) {
   EXPECT_EQ(joints(drawn.casters), JointNames{"caster_wheel_joint"});
 }
 
+// Right below its swivel a free wheel has no trail that turns it: it would hold the base sideways. It is a
+// ball.
+TEST_F(DraftOfCasters, a_wheel_right_below_its_free_swivel_is_a_ball) {
+  const std::string bracket =
+      "<collision><geometry><cylinder radius='.01' length='.03'/></geometry></collision>";
+  const auto caster = [&](const std::string& behind) {
+    return draft(beside_pair + beside_part("caster_base", "base_link", "-.2 0 -.02", "fixed", bracket) +
+                 beside_part("caster_fork", "base_link", "-.2 0 -.03", "continuous",
+                             beside_inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
+                 beside_wheel("caster_wheel", behind + " 0 -.02", ".03", "", "caster_fork"));
+  };
+  const RobotDraft below = caster("0");
+  EXPECT_EQ(below.supports, JointNames{"caster_wheel"}) << below.text;
+  EXPECT_NE(below.text.find("fixed: [caster_fork_joint, caster_wheel_joint]"), std::string::npos)
+      << below.text;
+  ASSERT_FALSE(below.assumed.empty());
+  EXPECT_EQ(below.assumed.front().robot.model.wheels().size(), 2U);
+  EXPECT_EQ(joints(caster("-.02").casters), JointNames{"caster_wheel_joint"});
+}
+
+// A file may draw all parts in the base's frame, each link at 0 0 0: a mesh stands where its mass is.
+TEST_F(DraftOfCasters, a_caster_of_a_mesh_carries_where_its_mass_is) {
+  const std::string body =
+      "<inertial><origin xyz='-.2 0 -.05'/><mass value='.1'/><inertia ixx='1e-5' iyy='1e-5' izz='1e-5' "
+      "ixy='0' "
+      "ixz='0' iyz='0'/></inertial><collision><origin xyz='-.2 0 -.05'/><geometry><mesh filename='c.stl'/>"
+      "</geometry></collision>";
+  const RobotDraft drawn = draft(beside_pair + beside_part("caster", "base_link", "0 0 0", "fixed", body));
+  EXPECT_EQ(drawn.supports, JointNames{"caster"}) << drawn.text;
+  ASSERT_FALSE(drawn.assumed.empty());
+  const Robot& robot = drawn.assumed.front().robot;
+  ASSERT_EQ(robot.supports.size(), 1U);
+  const auto frame = robot.model.find_frame(robot.supports.front());
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(robot.model.frames()[static_cast<std::size_t>(*frame)].pose_in_body.position.x(), -0.2, 1e-9);
+}
+
+// The wheels' rectangle reaches as far behind as the casters do, and ahead as far as the wheels.
+TEST_F(DraftOfCasters, the_outline_of_wheels_ends_where_they_end) {
+  const std::string mesh = "<link name='base_link'>" + beside_inertial("20", ".6") +
+                           "<collision><geometry><mesh filename='a.stl'/></geometry></collision></link>";
+  const RobotDraft drawn = test::drafted(
+      folder_, "<robot name='r'>" + mesh + beside_pair +
+                   beside_part("caster_fork", "base_link", "-.4 0 -.03", "continuous",
+                               beside_inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
+                   beside_wheel("caster_wheel", "-.02 0 -.02", ".03", "", "caster_fork") + "</robot>");
+  EXPECT_NE(
+      drawn.text.find("# polygon: [[0.08 m, 0.2 m], [-0.45 m, 0.2 m], [-0.45 m, -0.2 m], [0.08 m, -0.2 m]]"),
+      std::string::npos)
+      << drawn.text;
+  EXPECT_NE(drawn.text.find("The wheels alone reach 0.53 m x 0.4 m"), std::string::npos) << drawn.text;
+}
+
 // Stiff wheels of two sizes on one base would drag: the small ones are casters that are drawn without
 // swivels.
 TEST_F(DraftOfCasters, small_wheels_that_do_not_steer_carry_the_base) {
@@ -149,21 +202,27 @@ TEST_F(DraftOfCasters, wheels_beside_some_without_a_motor_skid) {
   EXPECT_EQ(drawn.text.find("kind: FILL_IN"), std::string::npos) << drawn.text;
 }
 
-// A wheel of 0.003 kg m^2 and a fork of 0.0001 kg m^2 and 1 kg, 10 cm beside the pivot's axis:
-// 0.0031 + 1 x 0.1^2 = 0.0131 kg m^2, and two digits above.
+// A wheel of 0.003 kg m^2 and a fork of 0.0001 kg m^2 and 1 kg, 20 cm beside the pivot's axis:
+// 0.0031 + 1 x 0.2^2 = 0.0431 kg m^2, and two digits above.
+// Below it: 26 kg on four wheels of 80 mm take 26 x 9.81 x 0.08 / 4 = 5.1 N m to scrub a tyre around. With
+// 150 rad/s^2 that is a rotor of 0.034 kg m^2, however light the fork.
 TEST_F(DraftOfCasters, a_cars_steering_has_as_much_rotor_inertia_as_it_turns) {
-  const auto steered = [](const std::string& name, const std::string& xyz) {
-    const std::string fork =
-        "<inertial><origin xyz='.1 0 0'/><mass value='1'/><inertia ixx='.0001' iyy='.0001' "
-        "izz='.0001' ixy='0' ixz='0' iyz='0'/></inertial>";
+  const auto steered = [](const std::string& name, const std::string& xyz, const std::string& beside) {
+    const std::string fork = "<inertial><origin xyz='" + beside +
+                             " 0 0'/><mass value='1'/><inertia ixx='.0001' iyy='.0001' "
+                             "izz='.0001' ixy='0' ixz='0' iyz='0'/></inertial>";
     return beside_part(name + "_steering", "base_link", xyz, "revolute", fork,
                        "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='5' velocity='5'/>") +
            beside_wheel(name + "_wheel", "0 0 0", ".08", "", name + "_steering");
   };
-  const RobotDraft drawn =
-      draft(beside_pair + steered("front_left", ".4 .2 0") + steered("front_right", ".4 -.2 0"));
-  EXPECT_NE(drawn.text.find("front_left_steering_joint: {rotor_inertia: 0.014 kg m^2}"), std::string::npos)
-      << drawn.text;
+  for (const auto& [beside, rotor] : {std::pair{".2", "0.044"}, {".1", "0.035"}}) {
+    const RobotDraft drawn = draft(beside_pair + steered("front_left", ".4 .2 0", beside) +
+                                   steered("front_right", ".4 -.2 0", beside));
+    EXPECT_NE(
+        drawn.text.find("front_left_steering_joint: {rotor_inertia: " + std::string(rotor) + " kg m^2}"),
+        std::string::npos)
+        << drawn.text;
+  }
 }
 
 // Wheels with rollers hold no side force, and a base on them turns about its origin.

@@ -238,5 +238,60 @@ TEST_F(DraftOfHabits, of_a_base_that_rolls_along_y_is_told_of_a_point_ahead) {
       << test::rendered(diagnostics);
 }
 
+// A joint moves between its limits, whichever stands first.
+TEST_F(DraftOfHabits, takes_limits_in_the_wrong_order_for_the_travel_between_them) {
+  const std::string blade = "<link name='blade'>" + inertial_element("1", "ixx='.01' iyy='.01' izz='.01'") +
+                            "</link><joint name='tilt' type='revolute'><parent link='chassis'/><child "
+                            "link='blade'/><axis xyz='0 1 0'/><limit lower='0' upper='-0.5' effort='9' "
+                            "velocity='1'/></joint>";
+  const auto draft = this->draft(folder_.write("blade.urdf", two_wheels_and(blade)));
+  ASSERT_TRUE(draft);
+  Diagnostics diagnostics;
+  const auto robot = load_robot(folder_.write("robot.yaml", draft->text), diagnostics);
+  ASSERT_TRUE(robot) << test::rendered(diagnostics);
+  const solver::Joint& tilt = robot->model.joint(*robot->model.find_joint("tilt"));
+  EXPECT_EQ(tilt.lower, -0.5);
+  EXPECT_EQ(tilt.upper, 0.0);
+  EXPECT_NE(test::rendered(diagnostics).find("W876"), std::string::npos) << test::rendered(diagnostics);
+}
+
+/// Two steered wheels of 1 kg ahead of two that roll, `moments` about each axis.
+std::string steered_with(const std::string& moments) {
+  std::string text = "<robot name='r'>" + chassis() + wheel_at("rear_left_wheel", "chassis", "-.2 .2 0") +
+                     wheel_at("rear_right_wheel", "chassis", "-.2 -.2 0");
+  for (const auto& [side, y] : {std::pair{"left", ".2"}, {"right", "-.2"}}) {
+    const std::string fork = std::string("fork_") + side;
+    text += "<link name='" + fork + "'>" + inertial_element(".01", "ixx='1e-5' iyy='1e-5' izz='1e-5'") +
+            "</link><joint name='steer_" + side + "' type='revolute'><parent link='chassis'/><child link='" +
+            fork + "'/><origin xyz='.2 " + y +
+            " 0'/><axis xyz='0 0 1'/><limit lower='-.5' upper='.5' effort='5' velocity='2'/></joint>" +
+            std::regex_replace(wheel_at(std::string("front_") + side, fork, "0 0 0"),
+                               std::regex("ixx='.002' iyy='.003' izz='.002'"), moments);
+  }
+  return text + "</robot>";
+}
+
+// 1 kg m^2 of a wheel of 1 kg and 80 mm is a simulator's: under `inertias` the wheel counts as a disc, and no
+// rotor is as heavy as that. 24.02 kg x 9.81 m/s^2 x 0.08 m / 4 / 150 rad/s^2 = 0.0314 kg m^2.
+TEST_F(DraftOfHabits, a_steering_has_the_rotor_of_a_wheel_that_can_be) {
+  const auto draft = this->draft(folder_.write("steer.urdf", steered_with("ixx='1' iyy='1' izz='1'")));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("front_left: {}"), std::string::npos) << draft->text;
+  EXPECT_NE(draft->text.find("steer_left: {rotor_inertia: 0.032 kg m^2}"), std::string::npos) << draft->text;
+}
+
+// Planners' files move the whole robot on rails, and have no wheels.
+TEST_F(DraftOfHabits, tells_rails_that_stand_for_wheels) {
+  const std::string link = inertial_element("1", "ixx='.1' iyy='.1' izz='.1'");
+  const std::string urdf = "<robot name='r'><link name='world'/><link name='along'>" + link + "</link>" +
+                           chassis() + joint_between("slide_x", "prismatic", "world", "along") +
+                           joint_between("slide_y", "prismatic", "along", "chassis") + "</robot>";
+  const auto draft = this->draft(folder_.write("rails.urdf", urdf));
+  ASSERT_TRUE(draft);
+  ASSERT_EQ(draft->stuck.size(), 2U) << draft->text;
+  EXPECT_EQ(draft->stuck.front().joint, "slide_x");
+  EXPECT_EQ(draft->stuck.front().how, "a rail that moves the whole robot");
+}
+
 }  // namespace
 }  // namespace zwang::lang

@@ -218,12 +218,12 @@ TEST_F(DraftOfWheels, a_caster_does_not_drive_beside_wheels_that_are_fixed) {
   EXPECT_EQ(held.stuck.front().joint, "caster_l_wheel_joint");
 }
 
-// 12 rollers in a ring across the axle: the wheel has the motor, and rollers at 90 deg.
-TEST_F(DraftOfWheels, finds_a_wheel_whose_rollers_are_joints) {
+/// Three wheels on a circle, each with 12 rollers in a ring across its axle.
+std::string wheels_with_rollers(const std::string& name, const std::string& roller_shape) {
   std::string parts;
   for (int i = 0; i < 3; ++i) {
     const double angle = 2.0 * std::numbers::pi / 3.0 * i;
-    const std::string wheel = "wheel_" + std::to_string(i);
+    const std::string wheel = name + std::to_string(i);
     parts += part_text(
         {wheel, "base_link", "continuous",
          std::to_string(0.2 * std::cos(angle)) + " " + std::to_string(0.2 * std::sin(angle)) + " -.1",
@@ -233,15 +233,27 @@ TEST_F(DraftOfWheels, finds_a_wheel_whose_rollers_are_joints) {
       const std::string y = std::to_string(0.04 * std::cos(turn)), z = std::to_string(0.04 * std::sin(turn));
       parts += part_text({wheel + "_roller_" + std::to_string(k), wheel, "continuous", "0 " + y + " " + z,
                           "0 " + std::to_string(-std::sin(turn)) + " " + std::to_string(std::cos(turn)), "",
-                          "<geometry><sphere radius='.01'/></geometry>"});
+                          roller_shape});
     }
   }
-  const RobotDraft draft = drafted(robot_text(parts));
+  return robot_text(parts);
+}
+
+TEST_F(DraftOfWheels, finds_a_wheel_whose_rollers_are_joints) {
+  const RobotDraft draft =
+      drafted(wheels_with_rollers("wheel_", "<geometry><sphere radius='.01'/></geometry>"));
   ASSERT_EQ(draft.wheels.size(), 3U) << draft.text;
   for (const DraftWheel& wheel : draft.wheels) EXPECT_NEAR(*wheel.radius, 0.04 + 0.01, 1e-5);
   EXPECT_TRUE(has(draft.text, "{joint: wheel_0_joint, radius: 50 mm, roller: 90 deg}")) << draft.text;
   EXPECT_FALSE(has(draft.text, "roller_3_joint: {")) << draft.text;
   EXPECT_EQ(said_of(draft.text).find("error"), std::string::npos) << said_of(draft.text);
+}
+
+// No name and no shape tells a wheel: the rims stand lowest, but for their own rollers.
+TEST_F(DraftOfWheels, finds_rims_by_place_above_their_rollers) {
+  const RobotDraft draft = drafted(wheels_with_rollers("rim_", mesh_shape));
+  ASSERT_EQ(draft.wheels.size(), 3U) << draft.text;
+  EXPECT_TRUE(has(draft.text, "{joint: rim_0_joint, roller: 90 deg}")) << draft.text;
 }
 
 // Limits of 0 to 0 leave a finger no travel. A joint without

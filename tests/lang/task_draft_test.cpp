@@ -220,5 +220,14 @@ TEST(TaskDraft, aligns_no_round_base) {
       << why_unfit("wall_align", fit);
 }
 
+// 7 m at 1 cm/s take longer than the shipped task lets anybody wait.
+TEST(TaskDraft, waits_no_longer_than_the_range_of_its_parameter) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  fit.outline = {{7.0, 1.0}, {-7.0, 1.0}, {-7.0, -1.0}, {7.0, -1.0}};
+  fit.outline_is_known = false;
+  const std::string text = drafted("feel_wall", fit).task;
+  EXPECT_NE(text.find("timeout: {value: 600 s, range: [2 s, 10 min]"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace zwang::lang

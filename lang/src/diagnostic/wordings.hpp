@@ -252,7 +252,8 @@ Diagnostic corrected_inertia(const Span& span, const std::string& link, double s
 Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type);
 Diagnostic zero_axis(const Span& span, const std::string& joint);
 Diagnostic joint_without_limit(const Span& span, const std::string& joint, const std::string& type);
-Diagnostic unordered_limits(const Span& span, const std::string& joint);
+Diagnostic unordered_limits(const Span& span, const std::string& joint, double lower, double upper,
+                            bool slides);
 Diagnostic negative_limit(const Span& span, const std::string& joint);
 Diagnostic urdf_refused(const Span& span, const std::string& message);
 

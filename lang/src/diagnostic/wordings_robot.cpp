@@ -298,8 +298,13 @@ Diagnostic joint_without_limit(const Span& span, const std::string& joint, const
   return error("E859", span, "the " + type + " joint " + in_ticks(joint) + " has no <limit>");
 }
 
-Diagnostic unordered_limits(const Span& span, const std::string& joint) {
-  return error("E859", span, "the lower limit of joint " + in_ticks(joint) + " is above its upper limit");
+Diagnostic unordered_limits(const Span& span, const std::string& joint, double lower, double upper,
+                            bool slides) {
+  const auto limit = [&](double value) { return slides ? figure(value, "m") : figure(value, "rad"); };
+  return warning("W876", span,
+                 "the lower limit of joint " + in_ticks(joint) + ", " + limit(lower) +
+                     ", is above its upper limit, " + limit(upper) + ": it counts as moving between both",
+                 "exchange `lower` and `upper` in the URDF");
 }
 
 Diagnostic negative_limit(const Span& span, const std::string& joint) {

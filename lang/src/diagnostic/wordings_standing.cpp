@@ -169,13 +169,18 @@ Diagnostic moving_support(const Span& span, const std::string& link, const std::
 }
 
 Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
-                         const Span& other_span) {
+                         const Span& other_span, const std::vector<std::pair<std::string, double>>& drops) {
+  std::string lower = "`drop: " + in_length(above) + "`: it stands that much lower than the URDF draws it";
+  if (drops.size() > 1) {
+    lower = "how much lower than drawn each stands, as `drop: " + in_length(above) + "`:";
+    for (const auto& [joint, drop] : drops)
+      lower += (joint == drops.front().first ? " " : ", ") + in_ticks(joint) + " " + in_length(drop);
+  }
   return with_related(
       error("E810", span,
             "the wheels do not stand on one level: " + in_ticks(wheel) + " ends " + in_length(above) +
                 " above " + in_ticks(other),
-            "mend a `radius`, or the height of the joint's <origin> in the URDF: where it ends is origin z - "
-            "radius"),
+            "mend a `radius`; or, if a spring, a rocker or the drawing holds it so high, write " + lower),
       other_span, "this one reaches lowest");
 }
 

@@ -58,8 +58,9 @@ enum class SupportOn { caster_wheel, ball, steered_link };
 Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
                           SupportOn what, const Span& declared);
 /// `above`: by how much the wheel's lowest point is higher than that of `other`. [m]
+/// `drops`: of all wheels that end above the lowest one, by how much [m].
 Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
-                         const Span& other_span);
+                         const Span& other_span, const std::vector<std::pair<std::string, double>>& drops);
 /// How far a wheel's joint, or the one that steers it, is drawn from its exact place.
 struct Deviation {
   std::string joint;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnostic/wordings.hpp"
+#include "robot/dropped_wheels.hpp"
 #include "robot/inertias.hpp"
 
 namespace zwang::lang {
@@ -82,6 +83,7 @@ void adapt_urdf(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
   apply_inertias(file, urdf, diagnostics);
   hold_joints(file.fixed, urdf, diagnostics);
   check_left_out(file, urdf, diagnostics);
+  drop_wheels(file, urdf);
 }
 
 }  // namespace zwang::lang

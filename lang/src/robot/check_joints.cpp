@@ -172,8 +172,14 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
   if (level.is_level()) return;
   const Word& highest = text_of(wheels[level.highest])->joint;
   const Word& lowest = text_of(wheels[level.lowest])->joint;
+  constexpr double rounding = 1e-4;  // [m]
+  std::vector<std::pair<std::string, double>> drops;
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    const double above = level.ends[i] - level.ends[level.lowest];
+    if (above > rounding) drops.emplace_back(text_of(wheels[i])->joint.text, above);
+  }
   diagnostics.add(
-      wording::uneven_wheels(highest.span, highest.text, lowest.text, level.spread(), lowest.span));
+      wording::uneven_wheels(highest.span, highest.text, lowest.text, level.spread(), lowest.span, drops));
 }
 
 }  // namespace zwang::lang

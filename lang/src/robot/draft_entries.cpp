@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/gravity.hpp"
 #include "robot/placed_urdf.hpp"
 #include "robot/wheel_names.hpp"
 #include "zwang/lang/footing.hpp"
@@ -46,6 +47,30 @@ bool carries_a_wheel(const Urdf& urdf, const FoundWheels& found, const std::stri
   return false;
 }
 
+/// A tyre that scrubs resists a steering by at most its load times its radius, m g r / n, and a steering is
+/// as strong. With that torque it turns no faster than by 150 rad/s^2, a quarter turn in 0.14 s:
+///   J = m g r / (150 n)
+/// A lighter one gives way to the base's least sway, and wheels that toe hold the base.
+double slowest_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint) {
+  constexpr double fastest = 150.0;  // [rad/s^2]
+  const auto wheel = std::find_if(found.wheels.begin(), found.wheels.end(),
+                                  [&](const DraftWheel& other) { return other.swivel == joint; });
+  const std::size_t count = holding_wheels(found).size() + found.casters.size();
+  if (wheel == found.wheels.end()) return 0.0;
+  return urdf.mass() * gravity * wheel->radius.value_or(0.1) / (fastest * static_cast<double>(count));
+}
+
+/// A ball weighs about no axis less than the disc that a wheel counts as does across its own.
+solver::RigidInertia as_ball(const DraftBody& body, const UrdfLink& link, const FoundWheels& found) {
+  double radius = body.radius;
+  for (const DraftWheel& wheel : found.wheels) {
+    if (wheel.link == link.name) radius = wheel.radius.value_or(0.1);
+  }
+  const double mass = link.inertia.mass;
+  return solver::RigidInertia::from_com(mass, link.inertia.first_moment / mass,
+                                        0.4 * mass * radius * radius * solver::Matrix3::Identity());
+}
+
 }  // namespace
 
 std::string in_brackets(const std::vector<std::string>& names) {
@@ -58,14 +83,15 @@ std::string fixed_entry(const std::vector<std::string>& joints) {
   if (joints.empty()) return "";
   return "\n# They do not move here. They carry wheels and do not steer them, as rockers and springs do; "
          "follow "
-         "another joint\n# by a <mimic>; have no travel, no motor, or next to no inertia behind them; or are "
-         "stiff casters, balls and\n# rollers, a simulator's rails, or parts of a linkage that a simulator's "
-         "own "
-         "<joint> closes.\nfixed: " +
+         "another joint\n# by a <mimic>; have no travel, no motor, one too weak to hold them, or next to no "
+         "inertia behind them; or are\n# stiff casters, balls and rollers, a simulator's rails, or parts of "
+         "a "
+         "linkage that a simulator's own <joint> closes.\nfixed: " +
          in_brackets(joints) + "\n";
 }
 
-std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint) {
+std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::vector<DraftBody>& bodies,
+                           const std::string& joint) {
   const auto is_on_it = [&](const DraftWheel& wheel) { return wheel.swivel == joint; };
   if (std::count_if(found.wheels.begin(), found.wheels.end(), is_on_it) > 1) return "";
   const PlacedUrdf placed(urdf, found.base);
@@ -77,8 +103,12 @@ std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std
     if (!(link.inertia.mass > 0.0) || std::find(above.begin(), above.end(), swivel) == above.end()) continue;
     solver::Pose from_swivel = placed.pose_of(link.name);
     from_swivel.position -= at;
-    inertia += axis.dot(link.inertia.expressed_in(from_swivel).rotational * axis);
+    const auto body = std::find_if(bodies.begin(), bodies.end(),
+                                   [&](const DraftBody& other) { return other.link == link.name; });
+    const solver::RigidInertia own = body == bodies.end() ? link.inertia : as_ball(*body, link, found);
+    inertia += axis.dot(own.expressed_in(from_swivel).rotational * axis);
   }
+  inertia = std::max(inertia, slowest_rotor(urdf, found, joint));
   return inertia > 0.0 ? "rotor_inertia: " + wording::figure(two_digits_above(inertia), "kg m^2") : "";
 }
 

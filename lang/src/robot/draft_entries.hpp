@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/draft_bodies.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -17,10 +18,12 @@ std::string in_brackets(const std::vector<std::string>& names);
 /// `fixed`: joints that the draft holds. Empty where there is none.
 std::string fixed_entry(const std::vector<std::string>& joints);
 
-/// A steering gets as much rotor inertia as it turns: a servo has that behind its gear. Without it a push on
-/// a light wheel turns the steering, and wheels that toe hold the base. Empty where two driven wheels on the
-/// swivel hold it, and where the URDF gives what it turns no inertia.
-std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint);
+/// A steering gets as much rotor inertia as it turns, and as much as its strength goes with: a servo has that
+/// behind its gear. Without it a push on a light wheel turns the steering, and wheels that toe hold the base.
+/// Empty where two driven wheels on the swivel hold it, and where the URDF has no masses. `bodies`: links to
+/// which the draft gives another inertia.
+std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::vector<DraftBody>& bodies,
+                           const std::string& joint);
 
 /// [rad] Of steered swivels whose wheels do not roll ahead as they are drawn: where they do.
 std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels& found);

@@ -25,20 +25,48 @@ std::string polygon_text(const std::vector<Eigen::Vector2d>& corners) {
   return "[" + text + "]";
 }
 
-/// Half of the rectangle around all wheels. [m]
-Eigen::Vector2d reach_of(const FoundWheels& found) {
-  Eigen::Vector2d most{0.1, 0.1};
-  for (const auto* wheels : {&found.wheels, &found.idle, &found.casters}) {
-    for (const DraftWheel& wheel : *wheels) {
-      most.x() = std::max(most.x(), std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
-      most.y() = std::max(most.y(), std::abs(wheel.at[1]));
-    }
-  }
-  return most;
+std::vector<DraftWheel> all_wheels(const FoundWheels& found) {
+  std::vector<DraftWheel> all = holding_wheels(found);
+  all.insert(all.end(), found.casters.begin(), found.casters.end());
+  return all;
 }
 
-std::vector<Eigen::Vector2d> rectangle(const Eigen::Vector2d& half) {
-  return {half, {-half.x(), half.y()}, -half, {half.x(), -half.y()}};
+/// Around the base's origin, as far to each side as the farthest wheel: what a body that nobody drew may
+/// fill.
+Eigen::AlignedBox2d body_around(const FoundWheels& found) {
+  Eigen::Vector2d most{0.1, 0.1};
+  for (const DraftWheel& wheel : all_wheels(found)) {
+    most.x() = std::max(most.x(), std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
+    most.y() = std::max(most.y(), std::abs(wheel.at[1]));
+  }
+  return {-most, most};
+}
+
+/// Around the wheels alone, each as long as it is high. Casters often stand behind the base's origin only.
+/// Fewer than three wheels tell nothing of a body that stands on something else, too.
+Eigen::AlignedBox2d around_wheels_of(const FoundWheels& found) {
+  constexpr double narrowest = 0.02;  // [m] as narrow as no base is
+  const std::vector<DraftWheel> all = all_wheels(found);
+  if (all.size() < 3) return body_around(found);
+  Eigen::AlignedBox2d axles, wheels;
+  for (const DraftWheel& wheel : all) axles.extend(Eigen::Vector2d(wheel.at[0], wheel.at[1]));
+  // A mesh has no radius, and its wheel hardly reaches to the middle of the base.
+  const double unknown = std::min(0.1, 0.5 * axles.diagonal().norm());
+  for (const DraftWheel& wheel : all) {
+    const Eigen::Vector2d at(wheel.at[0], wheel.at[1]);
+    const Eigen::Vector2d ahead =
+        wheel.radius.value_or(unknown) * Eigen::Vector2d(wheel.axle.y(), -wheel.axle.x()).normalized();
+    wheels.extend(Eigen::Vector2d(at + ahead));
+    wheels.extend(Eigen::Vector2d(at - ahead));
+  }
+  const Eigen::Vector2d wider =
+      (0.5 * (Eigen::Vector2d(narrowest, narrowest) - wheels.sizes())).cwiseMax(0.0);
+  return {wheels.min() - wider, wheels.max() + wider};
+}
+
+std::vector<Eigen::Vector2d> rectangle(const Eigen::AlignedBox2d& box) {
+  const Eigen::Vector2d &low = box.min(), &high = box.max();
+  return {high, {low.x(), high.y()}, low, {high.x(), low.y()}};
 }
 
 }  // namespace
@@ -48,11 +76,11 @@ DraftFrames::DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind d
     : urdf_(urdf), found_(found), drive_(drive), options_(options) {}
 
 std::vector<Eigen::Vector2d> DraftFrames::outline() const {
-  return outline_is_known() ? found_.outline : rectangle(reach_of(found_));
+  return outline_is_known() ? found_.outline : rectangle(body_around(found_));
 }
 
-std::string DraftFrames::around_wheels() const {
-  return polygon_text(rectangle(reach_of(found_)));
+std::string DraftFrames::assumed_outline() const {
+  return polygon_text(rectangle(body_around(found_)));
 }
 
 bool DraftFrames::has_nose() const {
@@ -89,9 +117,10 @@ std::string DraftFrames::footprint(const std::string& open) const {
            "collision "
            "shapes that are\n# fixed to the base.\nfootprint: {polygon: " +
            polygon_text(found_.outline) + "}\n";
-  const Eigen::Vector2d half = reach_of(found_);
-  return "\n# The outline from above, counter-clockwise. The wheels alone reach " + metres(2.0 * half.x()) +
-         " x " + metres(2.0 * half.y()) + ":\n# polygon: " + around_wheels() +
+  const Eigen::AlignedBox2d wheels = around_wheels_of(found_);
+  const Eigen::Vector2d sides = wheels.sizes();
+  return "\n# The outline from above, counter-clockwise. The wheels alone reach " + metres(sides.x()) +
+         " x " + metres(sides.y()) + ":\n# polygon: " + polygon_text(rectangle(wheels)) +
          "\nfootprint: {polygon: " + open + "}\n";
 }
 

@@ -30,7 +30,7 @@ class DraftFrames {
   /// With `open` in the place of the back, where nobody knows the outline.
   std::string frames(const std::string& open) const;
   /// The outline of the wheels, as a file has it.
-  std::string around_wheels() const;
+  std::string assumed_outline() const;
 
  private:
   bool has_nose() const;

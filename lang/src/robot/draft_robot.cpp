@@ -7,7 +7,9 @@
 #include "robot/draft_bodies.hpp"
 #include "robot/draft_entries.hpp"
 #include "robot/draft_frames.hpp"
+#include "robot/draft_motors.hpp"
 #include "robot/drive_kind.hpp"
+#include "robot/dropped_wheels.hpp"
 #include "robot/each_wheel.hpp"
 #include "robot/folded_arm.hpp"
 #include "robot/joint_axes.hpp"
@@ -32,10 +34,6 @@ struct Filling {
   std::string force = fill_in;                      ///< of the brake, where no mass is known
 };
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 class Drafter {
  public:
   Drafter(const Urdf& urdf, const DraftOptions& options, FoundWheels found, std::string named_as)
@@ -46,26 +44,16 @@ class Drafter {
         named_as_(std::move(named_as)),
         drive_(drive_of(holding_wheels(found_))),
         frames_(urdf_, found_, drive_, options) {
-    const std::vector<std::string> open = without_inertia(urdf_);
-    held_ = found_.in_between;
-    for (const std::string& name : found_.others) {
-      const UrdfJoint& joint = *urdf_.find_joint(name);
-      if (joint.mimic || contains(open, joint.child)) held_.push_back(name);
-    }
-    // A finger alone is no gripper: the one that leads stands with those that follow.
-    for (const std::string& name : std::vector<std::string>(held_)) {
-      const std::optional<UrdfMimic>& mimic = urdf_.find_joint(name)->mimic;
-      if (mimic && contains(found_.others, mimic->joint) && !contains(held_, mimic->joint))
-        held_.push_back(mimic->joint);
-    }
-    std::vector<std::string> arms;
-    for (const std::string& name : found_.others) {
-      if (!contains(held_, name)) arms.push_back(name);
-    }
-    folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
-    if (drive_ == DriveKind::swivels) folded_.posture.merge(steered_ahead(urdf_, found_));
-    bodies_ = find_draft_bodies(urdf_, found_, open, held_, frames_.outline());
-    shares_mass_ = share_mass(bodies_, found_.wheels);
+    std::vector<DraftWheel> on_the_ground = holding_wheels(found_);
+    on_the_ground.insert(on_the_ground.end(), found_.casters.begin(), found_.casters.end());
+    drops_ = drops_of(on_the_ground);
+    hold_joints();
+  }
+
+  /// Holds them, too: a motor as weak as the URDF's does not.
+  void hold_slides(std::vector<SinkingSlide> slides) {
+    sinking_ = std::move(slides);
+    hold_joints();
   }
 
   /// Proposes as hard a brake [m/s^2], where it is less.
@@ -99,7 +87,7 @@ class Drafter {
     Filling filling;
     filling.radius = wording::figure(assumed_radius(), "m");
     filling.effort = "1 N m";
-    filling.footprint = frames_.around_wheels();
+    filling.footprint = frames_.assumed_outline();
     filling.back = "-0.5 m";
     filling.base_mass = "10 kg";
     filling.mass = "0.1 kg";
@@ -126,6 +114,30 @@ class Drafter {
   }
 
  private:
+  void hold_joints() {
+    const std::vector<std::string> open = without_inertia(urdf_);
+    held_ = found_.in_between;
+    for (const SinkingSlide& slide : sinking_) held_.push_back(slide.joint);
+    for (const std::string& name : found_.others) {
+      const UrdfJoint& joint = *urdf_.find_joint(name);
+      if (joint.mimic || contains(open, joint.child)) held_.push_back(name);
+    }
+    // A finger alone is no gripper: the one that leads stands with those that follow.
+    for (const std::string& name : std::vector<std::string>(held_)) {
+      const std::optional<UrdfMimic>& mimic = urdf_.find_joint(name)->mimic;
+      if (mimic && contains(found_.others, mimic->joint) && !contains(held_, mimic->joint))
+        held_.push_back(mimic->joint);
+    }
+    std::vector<std::string> arms;
+    for (const std::string& name : found_.others) {
+      if (!contains(held_, name)) arms.push_back(name);
+    }
+    folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
+    if (drive_ == DriveKind::swivels) folded_.posture.merge(steered_ahead(urdf_, found_));
+    bodies_ = find_draft_bodies(urdf_, found_, open, held_, frames_.outline());
+    shares_mass_ = share_mass(bodies_, found_.wheels);
+  }
+
   template <typename Test>
   bool any(const Test& test) const {
     return std::any_of(found_.wheels.begin(), found_.wheels.end(), test);
@@ -197,6 +209,10 @@ class Drafter {
     if (urdf_.mass() > 0.0 && push() > floor_holds(urdf_.mass()))
       lines.push_back("the wheels' own torques: the URDF's press with " + wording::figure(push(), "N") +
                       ", and no floor holds that (W872); give `each_wheel: {effort: ..}`");
+    for (const SinkingSlide& slide : sinking_)
+      lines.push_back("a motor that holds `" + slide.joint + "`: it bears " +
+                      wording::figure(slide.borne, "N") + ", the URDF's makes " +
+                      wording::figure(slide.effort, "N") + ", so it stands in `fixed`");
     if (!friction_note(urdf_, found_, held_).empty())
       lines.push_back("friction that was measured: the URDF's <dynamics> stand in a comment of the draft");
     lines.push_back("gears and rotor inertias: often larger than the wheels' own");
@@ -209,9 +225,9 @@ class Drafter {
   bool share_radius() const {
     const auto height = [](const DraftWheel& a, const DraftWheel& b) { return a.at[2] < b.at[2]; };
     const auto [low, high] = std::minmax_element(found_.wheels.begin(), found_.wheels.end(), height);
-    return all(lacks_radius) && (found_.wheels.empty() || high->at[2] - low->at[2] < least_wheel_lift);
+    return all(lacks_radius) && (found_.wheels.empty() || share_mesh(found_.wheels) ||
+                                 high->at[2] - low->at[2] < least_wheel_lift);
   }
-  bool share_effort() const { return all(lacks_effort); }
 
   std::string each_wheel(const Filling& filling) const {
     std::string about, keys;
@@ -225,34 +241,14 @@ class Drafter {
     if (share_radius())
       add("radius", filling.radius,
           "radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.");
-    if (share_effort()) add("effort", filling.effort, "effort: the largest torque of a wheel, as `2 N m`.");
+    if (share_effort(found_))
+      add("effort", filling.effort, "effort: the largest torque of a wheel, as `2 N m`.");
     if (shares_mass_) add("mass", filling.mass, "mass: of each wheel, as `0.5 kg`; the URDF has none.");
     if (is_skid())
       add("kind", "skid", "kind: wheels that are coupled or have no motor have no rollers: they slide.");
     if (keys.empty()) return "";
     return "# each_wheel: of every wheel with a motor, where its own entry says nothing.\n" + about +
            "each_wheel: {" + keys + "}\n";
-  }
-
-  /// Joints that turn, are no wheels, and whose torque the URDF does not say, where there are several.
-  std::vector<std::string> alike() const {
-    std::vector<std::string> names;
-    for (const auto* joints : {&found_.steering, &found_.others}) {
-      for (const std::string& name : *joints) {
-        const solver::Joint& joint = urdf_.find_joint(name)->joint;
-        const bool turns = joint.type != solver::JointType::prismatic;
-        if (turns && !contains(held_, name) && !std::isfinite(joint.max_effort)) names.push_back(name);
-      }
-    }
-    return names.size() > 1 ? names : std::vector<std::string>{};
-  }
-
-  std::string each_joint(const Filling& filling) const {
-    if (alike().empty()) return "";
-    return "\n# each_joint: of every motor that turns no wheel, where neither its own entry nor the URDF "
-           "says "
-           "it.\n# effort: the largest torque, as `2 N m`.\neach_joint: {effort: " +
-           filling.effort + "}\n";
   }
 
   std::string wheel_entry(const DraftWheel& wheel, bool is_driven, bool slides_sideways,
@@ -263,38 +259,11 @@ class Drafter {
     } else if (!is_driven || !share_radius()) {
       entry += ", radius: " + filling.radius;
     }
+    const auto drop = drops_.find(wheel.joint);
+    if (drop != drops_.end()) entry += ", drop: " + in_millimetres(drop->second);
     if (is_driven && drive_ == DriveKind::omni) entry += ", roller: 90 deg";
     if (slides_sideways) entry += ", holds: [rolling]";
     return entry + "}\n";
-  }
-
-  std::string actuated(const Filling& filling) const {
-    std::string text = "actuated:\n";
-    const std::vector<std::string> shared = alike();
-    const auto line = [&](const std::string& name, const std::string& open, std::string more = "") {
-      const solver::Joint& joint = urdf_.find_joint(name)->joint;
-      const bool is_known = std::isfinite(joint.max_effort) || contains(shared, name);
-      if (!is_known) more = "effort: " + open + (more.empty() ? "" : ", ") + more;
-      text += "  " + name + ": {" + more + "}\n";
-    };
-    for (const DraftWheel& wheel : found_.wheels) {
-      if (share_effort()) {
-        text += "  " + wheel.joint + ": {}\n";
-      } else {
-        line(wheel.joint, filling.effort);
-      }
-    }
-    for (const std::string& name : found_.steering)
-      line(name, filling.effort, steering_rotor(urdf_, found_, name));
-    for (const std::string& name : found_.others) {
-      const UrdfJoint* joint = urdf_.find_joint(name);
-      if (contains(held_, name)) continue;
-      const bool slides = joint->joint.type == solver::JointType::prismatic;
-      line(name, filling.effort == fill_in ? fill_in : slides ? "1 N" : "1 N m");
-      if (slides && text.ends_with(std::string(fill_in) + "}\n"))
-        text.insert(text.size() - 1, "  # it slides: the largest force, as `20 N`");
-    }
-    return text;
   }
 
   std::string text(const Filling& filling) const {
@@ -312,8 +281,9 @@ class Drafter {
     if (!found_.supports.empty())
       text +=
           "\n# They stand on the ground and hold nothing.\nsupports: " + in_brackets(found_.supports) + "\n";
-    text += each_joint(filling);
-    text += effort_note + actuated(filling) + friction_note(urdf_, found_, held_);
+    text += each_joint_entry(urdf_, found_, held_, filling.effort) + effort_note +
+            actuated_entry(urdf_, found_, held_, bodies_, filling.effort) +
+            friction_note(urdf_, found_, held_);
     text += inertias_entry(bodies_, filling.base_mass, filling.mass) + posture_entry(urdf_, folded_) +
             stop_entry(urdf_.mass(), deceleration_, filling.force) + frames_.footprint(filling.footprint) +
             frames_.frames(filling.back);
@@ -338,9 +308,11 @@ class Drafter {
   std::string named_as_;
   DriveKind drive_;
   DraftFrames frames_;
-  std::vector<std::string> held_;  ///< joints of `fixed`
-  std::vector<DraftBody> bodies_;  ///< links whose inertia is in the draft
-  bool shares_mass_ = false;       ///< all wheels with a motor have one in `each_wheel`
+  std::vector<std::string> held_;        ///< joints of `fixed`
+  std::vector<SinkingSlide> sinking_;    ///< held, for the URDF's motor does not hold them
+  std::map<std::string, double> drops_;  ///< [m] by the joint of a wheel
+  std::vector<DraftBody> bodies_;        ///< links whose inertia is in the draft
+  bool shares_mass_ = false;             ///< all wheels with a motor have one in `each_wheel`
   FoldedArm folded_;
   double deceleration_ = 1.0;  ///< [m/s^2] as hard as most bases brake
 };
@@ -386,6 +358,10 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
   Drafter drafter(*urdf, options, found, named_as);
   RobotDraft draft = with_assumptions(drafter, *urdf);
+  if (std::vector<SinkingSlide> slides = sinking_slides(draft, *urdf); !slides.empty()) {
+    drafter.hold_slides(std::move(slides));
+    draft = with_assumptions(drafter, *urdf);
+  }
   const double steady = steady_deceleration(draft);
   if (steady >= 1.0) return draft;
   drafter.brake_within(steady);

@@ -240,8 +240,9 @@ class Fitting {
 
   /// The shipped time allows for the shipped way: 0.5 m at 0.08 m/s, 5 cm at 1 cm/s.
   void fit_times(std::string& text) const {
+    static constexpr double longest = 600.0;  // [s] that the shipped range of the parameter allows
     const auto timeout = [](double seconds) {
-      return "timeout: {value: " + wording::figure(std::ceil(seconds / 5.0) * 5.0, "s");
+      return "timeout: {value: " + wording::figure(std::min(longest, std::ceil(seconds / 5.0) * 5.0), "s");
     };
     // A large base takes longer to swing around the corner that touches first. A drive that feels late takes
     // 15 s longer.
@@ -255,12 +256,12 @@ class Fitting {
       replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
   }
 
-  /// The way may be so much longer while the outline is not known. So it may where an arm does not reach as
-  /// far ahead as its joints are from the base's origin. [m]
+  /// The way may be so much longer while the outline is not known: the body may end behind the base's origin.
+  /// So it may where an arm does not reach as far ahead as its joints are from that origin. [m]
   double slack() const {
     double front = 0.0;
     for (const Eigen::Vector2d& corner : fit_.outline) front = std::max(front, corner.x());
-    return fit_.outline_is_known ? ahead(0.0) - front : ahead(0.0);
+    return fit_.outline_is_known ? ahead(0.0) - front : 2.0 * ahead(0.0);
   }
 
   double lever() const { return std::max(0.02, fit_.front_lever); }

@@ -68,6 +68,9 @@ OpenPlaces open_places(const std::string& robot_file) {
       if (comment != std::string::npos) places.to_fill_in.back().what_to = trimmed(line.substr(comment + 3));
       continue;
     }
+    if (entry.starts_with("- {joint: ") && entry.find(", drop: ") != std::string::npos)
+      places.to_check.push_back(
+          {number, entry, "the URDF draws it above the lowest wheel, or a radius is wrong"});
     if (line.starts_with(" ")) continue;  // not a key of the file
     for (const Reason& reason : check_reasons) {
       if (entry.starts_with(std::string(reason.key) + ":"))

@@ -49,6 +49,8 @@ WheelText parse_wheel(const Node& node, bool each_has_radius, Diagnostics& diagn
       diagnostics.add(wording::roller_angle(roller->span, what));
     }
   }
+  if (const Node* drop = map.optional("drop"))
+    wheel.drop = parse_positive(*drop, dimension::length, what + "'s drop", true, diagnostics);
   const Node* holds = map.optional("holds");
   wheel.gives_holds = holds != nullptr;
   if (holds != nullptr && require_sequence(*holds, what + "'s `holds`", diagnostics)) {

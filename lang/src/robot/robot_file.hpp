@@ -16,6 +16,7 @@ struct WheelText {
   Word joint;
   std::optional<double> radius;  ///< [m]
   std::optional<double> roller;  ///< [rad]
+  std::optional<double> drop;    ///< [m] that it stands lower than the URDF draws it
   bool holds_rolling = true;
   bool holds_sideways = true;
   bool gives_radius = false, gives_holds = false;  ///< the file has the keys

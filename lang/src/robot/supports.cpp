@@ -54,9 +54,14 @@ std::vector<SupportFrame> support_frames(const RobotFile& file, const Urdf& urdf
     const UrdfLink* link = urdf.find_link(support.text);
     if (link == nullptr || !seen.insert(link->name).second) continue;
     SupportFrame frame{link->name, link->name};
-    if (link->radius && link->round_at.norm() > rounding) {
+    // Some files draw all parts in the base's own frame: a mesh stands where its mass is.
+    const double mass = link->inertia.mass;
+    const solver::Vector3 middle = link->radius ? link->round_at
+                                   : mass > 0.0 ? solver::Vector3(link->inertia.first_moment / mass)
+                                                : solver::Vector3::Zero();
+    if (middle.norm() > rounding) {
       frame.name = link->name + " ball";  // no name that a file could use
-      frame.at = link->round_at;
+      frame.at = middle;
     }
     frames.push_back(std::move(frame));
   }

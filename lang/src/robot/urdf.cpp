@@ -97,12 +97,13 @@ UrdfJoint to_joint(const urdf::Joint& joint) {
     // 0 is how URDFs say that they do not know.
     if (joint.limits->effort > 0.0) result.joint.max_effort = joint.limits->effort;
     if (joint.limits->velocity > 0.0) result.joint.max_velocity = joint.limits->velocity;
+    const auto [lower, upper] = std::minmax(joint.limits->lower, joint.limits->upper);
     const bool turns = result.joint.type == solver::JointType::revolute;
-    if (turns && joint.limits->lower < -without_end && joint.limits->upper > without_end)
+    if (turns && lower < -without_end && upper > without_end)
       result.joint.type = solver::JointType::continuous;
     if (result.joint.type != solver::JointType::continuous) {
-      result.joint.lower = joint.limits->lower;
-      result.joint.upper = joint.limits->upper;
+      result.joint.lower = lower;
+      result.joint.upper = upper;
     }
   }
   return result;
@@ -247,6 +248,28 @@ void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
   }
 }
 
+/// File and scale of the first mesh that a link shows. A mirrored mesh is as large.
+std::string mesh_of(const std::vector<XmlElement>& elements, const std::string& link) {
+  const auto is_in = [&](const XmlElement& element, const char* kind) {
+    return element.parent >= 0 && elements[static_cast<std::size_t>(element.parent)].name == kind;
+  };
+  const auto link_of = [&](const XmlElement& element) {
+    const XmlElement* above = &element;
+    while (above->parent > 0) above = &elements[static_cast<std::size_t>(above->parent)];
+    const XmlAttribute* name = above->name == "link" ? above->find("name") : nullptr;
+    return name == nullptr ? std::string() : name->value;
+  };
+  for (const XmlElement& element : elements) {
+    const XmlAttribute* file = element.name == "mesh" ? element.find("filename") : nullptr;
+    if (file == nullptr || !is_in(element, "geometry") || link_of(element) != link) continue;
+    const XmlAttribute* scale = element.find("scale");
+    std::string text = scale == nullptr ? "1 1 1" : scale->value;
+    std::erase(text, '-');
+    return file->value + " " + text;
+  }
+  return "";
+}
+
 template <typename Items, typename Match>
 auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
   const auto it = std::find_if(items.begin(), items.end(), match);
@@ -266,6 +289,7 @@ void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>
     result.has_mesh = meshed.contains(name);
     find_round_shape(link->collision_array, result);
     if (!result.radius) find_round_shape(link->visual_array, result);
+    result.mesh = mesh_of(elements, name);
     if (link->inertial && !findings.weightless.contains(name))
       result.inertia = to_inertia(*link->inertial, findings.point_masses.contains(name));
     urdf.links.push_back(std::move(result));

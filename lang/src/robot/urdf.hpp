@@ -28,6 +28,7 @@ struct UrdfLink {
   solver::Vector3 round_at = solver::Vector3::Zero();  ///< [m] in the link, the middle of that shape
   std::vector<solver::Vector3> corners;  ///< [m] in the link, of the shapes that collide; a mesh has none
   bool has_mesh = false;                 ///< among its shapes, which has no size here
+  std::string mesh;  ///< file and scale of the first mesh that is seen; links that share one are as large
 };
 
 /// A <mimic>: another joint that this one follows.

@@ -314,9 +314,9 @@ class UrdfChecker {
     }
     if (!check_numbers(*limit)) return;
     const Span span = elements_[*limit].span;
-    if (number(*limit, "lower", 0.0) > number(*limit, "upper", 0.0) && type != "continuous") {
-      complain(wording::unordered_limits(span, name));
-    }
+    const double lower = number(*limit, "lower", 0.0), upper = number(*limit, "upper", 0.0);
+    if (lower > upper && type != "continuous")
+      diagnostics_.add(wording::unordered_limits(span, name, lower, upper, type == "prismatic"));
     // Simulators write -1 where there is no limit.
     const auto is_negative = [](double value) { return value < 0.0 && value != -1.0; };
     if (is_negative(number(*limit, "effort", 0.0)) || is_negative(number(*limit, "velocity", 0.0))) {

@@ -261,9 +261,10 @@ class CandidateSearch {
     const bool is_pair_there = std::any_of(level.begin(), level.end(), [&](const UrdfJoint* a) {
       return std::any_of(level.begin(), level.end(), [&](const UrdfJoint* b) { return are_a_pair(*a, *b); });
     });
-    const bool is_undercut = std::any_of(
-        urdf_.joints.begin(), urdf_.joints.end(),
-        [&](const UrdfJoint& other) { return has_travel(other) && placed_.place_of(other).z() < below; });
+    const bool is_undercut =
+        std::any_of(urdf_.joints.begin(), urdf_.joints.end(), [&](const UrdfJoint& other) {
+          return has_travel(other) && !is_part_of_another(other) && placed_.place_of(other).z() < below;
+        });
     if (is_undercut || (!is_pair_there && level.size() < 3)) return;
     wheels = level;
   }

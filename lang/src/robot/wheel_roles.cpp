@@ -3,6 +3,7 @@
 //
 //   on a swivel, with other wheels that do not steer, and the axle behind the swivel's axis      a caster
 //   on a swivel, and called a caster, while others are not                                       a caster
+//   on a swivel without a motor, and its axle not behind the swivel's axis: nothing turns it       a ball
 //   stiff, and called a caster, while others are not                                             a ball
 //   stiff, and a fifth smaller than the largest: on stiff axles such a base would drag           a ball
 //
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnostic/wheel_places.hpp"
 #include "robot/placed_urdf.hpp"
 #include "robot/wheel_names.hpp"
 
@@ -107,6 +109,8 @@ class Roles {
       return is_stiff_caster ? Role::ball : Role::driven;
     }
     const bool trails = wheel.trail > least_trail * wheel.radius.value_or(0.1);
+    const bool is_free = !says_motor(wheel.swivel) && !is_driven && is_called_caster(wheel);
+    if (is_free && has_stiff_ && wheel.trail <= most_wheel_offset) return Role::ball;
     if (tells_motors()) {
       if (is_driven) return Role::driven;
       return says_motor(wheel.swivel) || !(trails || is_called_caster(wheel)) ? Role::idle : Role::caster;
@@ -119,6 +123,7 @@ class Roles {
     if (role == Role::idle) found_.idle.push_back(wheel);
     if (role == Role::caster) found_.casters.push_back(wheel);
     if (role != Role::ball) return;
+    if (!wheel.swivel.empty()) found_.in_between.push_back(wheel.swivel);
     found_.in_between.push_back(wheel.joint);
     found_.supports.push_back(wheel.link);
   }

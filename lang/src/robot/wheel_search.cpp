@@ -85,6 +85,7 @@ class WheelSearch {
     DraftWheel wheel;
     wheel.joint = joint.joint.name;
     wheel.link = joint.child;
+    wheel.mesh = urdf_.find_link(joint.child)->mesh;
     const solver::Vector3& at = placed_.place_of(joint);
     const solver::Vector3 axle = placed_.axis_of(joint);
     wheel.at = {at.x(), at.y(), at.z()};
@@ -176,13 +177,18 @@ class WheelSearch {
     return (placed_.pose_of(link).position - foot).head<2>().norm();
   }
 
-  /// A caster may be drawn of several links of its name. A link without a round shape is no support if it
-  /// holds a round link, or a wheel of a caster. It holds one that stands nearer than the link is high.
+  /// On an upright cylinder nothing rolls.
+  static bool is_round_foot(const UrdfLink& link) {
+    return link.radius && !(link.cylinder_axis && std::abs(link.cylinder_axis->z()) > PlacedUrdf::upright);
+  }
+
+  /// A caster may be drawn of several links of its name. A link that does not roll is no support if it holds
+  /// a round link, or a wheel of a caster. It holds one that stands nearer than the link is high.
   void leave_brackets_out() {
     const std::optional<double> ground = this->ground();
     std::vector<solver::Vector3> feet;
     for (const std::string& name : found_.supports) {
-      if (urdf_.find_link(name)->radius)
+      if (is_round_foot(*urdf_.find_link(name)))
         feet.push_back(placed_.pose_of(name) * urdf_.find_link(name)->round_at);
     }
     for (const DraftWheel& caster : found_.casters)
@@ -190,9 +196,9 @@ class WheelSearch {
     if (!ground) return;
     std::erase_if(found_.supports, [&](const std::string& name) {
       const double height = placed_.pose_of(name).position.z() - *ground;
-      return !urdf_.find_link(name)->radius && std::any_of(feet.begin(), feet.end(), [&](const auto& foot) {
-        return beside(name, foot) < height;
-      });
+      return !is_round_foot(*urdf_.find_link(name)) &&
+             std::any_of(feet.begin(), feet.end(),
+                         [&](const auto& foot) { return beside(name, foot) < height; });
     });
   }
 
@@ -256,7 +262,27 @@ class WheelSearch {
     }
     if (!found_.wheels.empty()) return;
     if (found_.stuck.empty()) found_.stuck = casters;
+    if (found_.stuck.empty()) find_rails();
     if (found_.stuck.empty()) find_upright_wheels();
+  }
+
+  /// Planners move a whole robot by two slides and a turn, or by fewer, and leave its wheels out.
+  void find_rails() {
+    std::vector<StuckWheel> rails;
+    std::string link = urdf_.root;
+    for (std::size_t i = 0; i < most_links; ++i) {
+      const auto is_below = [&](const UrdfJoint& joint) { return joint.parent == link; };
+      const auto below = std::find_if(urdf_.joints.begin(), urdf_.joints.end(), is_below);
+      if (below == urdf_.joints.end() ||
+          std::count_if(urdf_.joints.begin(), urdf_.joints.end(), is_below) > 1)
+        break;
+      const bool slides = below->joint.type == solver::JointType::prismatic;
+      const double up = std::abs(placed_.axis_of(*below).z());
+      if (moves(*below) && (slides ? up > PlacedUrdf::level : up < PlacedUrdf::upright)) break;
+      if (moves(*below)) rails.push_back({below->joint.name, "a rail that moves the whole robot"});
+      link = below->child;
+    }
+    if (rails.size() > 1) found_.stuck = rails;
   }
 
   /// On the base, and turning without end about an axis that no wheel has.

@@ -13,6 +13,7 @@ Json wheel() {
        {"roller", reference("quantity",
                             "mecanum and omni: from the wheel's axis to the roller's at "
                             "the ground, about the base's +z")},
+       {"drop", reference("quantity", "that it stands lower than the URDF draws it")},
        {"holds", list("the directions that a plain wheel holds; default both",
                       one_of_words("", {"rolling", "sideways"}))}});
 }

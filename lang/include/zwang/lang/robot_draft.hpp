@@ -19,6 +19,7 @@ struct DraftWheel {
   std::array<double, 3> at{};      ///< [m] in the base
   Eigen::Vector2d axle{0.0, 1.0};  ///< direction in the base, from above
   std::optional<double> radius;    ///< [m] of the link's largest cylinder or sphere
+  std::string mesh;                ///< wheels that share one have one radius
   std::optional<double> effort;    ///< [N m] of the URDF's limit
   std::string swivel;              ///< the joint that steers it; empty: fixed to the base
   double trail = 0.0;              ///< [m] of its axle behind the swivel's axis
