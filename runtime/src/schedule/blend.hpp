@@ -45,6 +45,13 @@ struct Wanted {
   bool far = false;       ///< not in force now, though nothing was switched: a boundary out of reach
 };
 
+/// The ranges of a constraint, one bit a quantity.
+inline constexpr unsigned position_bit = 1U;
+inline constexpr unsigned velocity_bit = 2U;
+inline constexpr unsigned acceleration_bit = 4U;
+inline constexpr unsigned force_bit = 8U;  ///< of a force range alone; beside a driver it is the driver's
+inline constexpr unsigned all_bits = position_bit | velocity_bit | acceleration_bit | force_bit;
+
 /// Most rows that a constraint can become.
 int row_bound(const solver::AxisConstraint& constraint) noexcept;
 

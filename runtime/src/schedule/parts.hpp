@@ -1,6 +1,6 @@
 /// The parts of a scheduler. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
-/// tick_rows, tick_drivers, tick_return, tick_sides, tick_paths. The numbers are those of the table in
-/// runtime/README.md.
+/// tick_rows, tick_drivers, tick_return, tick_sides, tick_paths, tick_read. The numbers are those of the
+/// table in runtime/README.md.
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ namespace {
 
 using solver::Range;
 
-bool is_same(const solver::AttachedFrame& one, const solver::AttachedFrame& other) {
+bool is_same_frame(const solver::AttachedFrame& one, const solver::AttachedFrame& other) {
   return one.body == other.body && one.pose.rotation == other.pose.rotation &&
          one.pose.position == other.pose.position && one.twist.angular == other.twist.angular &&
          one.twist.linear == other.twist.linear;
@@ -55,7 +55,8 @@ void Scheduler::Parts::list_plane(const ActiveAxis& a) noexcept {
     w.lost = speed.lost;
     w.far = false;  // until one set is in force: each set keeps its own solution within the norm
     const solver::AxisConstraint& along = speed.constraint;
-    if (!is_new && is_same(w.constraint.move, along.move) && is_same(w.constraint.in, along.in)) continue;
+    if (!is_new && is_same_frame(w.constraint.move, along.move) && is_same_frame(w.constraint.in, along.in))
+      continue;
     w.constraint = norm.constraint(i, along.move, along.in);
     w.constraint.level = a.says->level;
   }
