@@ -119,6 +119,15 @@ Diagnostic arm_too_heavy(const Span& span, const std::string& joint, double born
                      "}`; or start the joint elsewhere by `posture`, or hold it under `fixed`");
 }
 
+Diagnostic wheel_without_trail(const Span& span, const std::string& wheel, const std::string& swivel) {
+  return warning(
+      "W877", span,
+      "nothing turns the free swivel " + in_ticks(swivel) + ": wheel " + in_ticks(wheel) +
+          " stands right below it, and holds the base sideways",
+      "if it is a ball, list both joints under `fixed`, and the wheel's link under `supports` instead "
+      "of `wheels`; else mend the wheel's <origin>: a caster's wheel stands behind its swivel");
+}
+
 Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared) {
   return with_related(
       error("E802", span, "a wheel rolls about a level axis, but joint " + in_ticks(joint) + "'s points up",

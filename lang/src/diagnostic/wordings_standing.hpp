@@ -43,6 +43,7 @@ Diagnostic starts_near_an_end(const Span& span, const NearEnd& start);
 /// `borne` by the joint at the start, more than its motor's `effort`. [N m], or [N] where it slides
 Diagnostic arm_too_heavy(const Span& span, const std::string& joint, double borne, double effort,
                          bool slides);
+Diagnostic wheel_without_trail(const Span& span, const std::string& wheel, const std::string& swivel);
 Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared);
 /// `carrier`: a joint between the base and the wheel that does not steer it.
 Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::string& carrier,

@@ -20,6 +20,8 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
 void check_arms(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
 /// W868: rollers that are mirrored.
 void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
+/// W877: wheels right below a free swivel, which nothing turns.
+void check_trails(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
 /// W869: wheels that turn across their own cylinder.
 void check_wheel_shapes(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
 /// W870: that a wheel, and what swivels it, turn as their mass can. URDFs that only draw a robot have 1 kg

@@ -287,6 +287,7 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   check_wheels_stand(*file, *urdf, *robot, diagnostics);
   check_steps(*file, *urdf, *robot, diagnostics);
   check_rollers(*file, *robot, diagnostics);
+  check_trails(*file, *robot, diagnostics);
   check_wheel_shapes(*file, *urdf, diagnostics);
   check_wheel_inertias(*file, *robot, diagnostics);
   check_push(*file, *robot, diagnostics);
