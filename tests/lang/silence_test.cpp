@@ -311,7 +311,7 @@ class Silence : public testing::Test {
     return all;
   }
 
-  static int count() { return zwang::test::is_long() ? 342 : 114; }
+  static int count() { return zwang::test::is_long() ? 348 : 116; }
 
   test::Folder folder_;
 };

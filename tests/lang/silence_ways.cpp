@@ -148,6 +148,14 @@ std::string weaker_than_friction(Dice& d, bool fault) {
       "", "mecanum_rough");
 }
 
+/// The bumper stands 0.15 m above the floor.
+std::string nearer_than_the_height(Dice& d, bool fault) {
+  const double asked = fault ? d.number(0.02, 0.14) : d.number(0.17, 0.5);
+  return file(
+      task("a", drive("velocity: 0.1 m/s"), exit_when("gap < " + q(asked, "m"), "done"), fails),
+      "frames: {goal: {parent: world, at: [1 m, 0 m]}}\nfeatures: {gap: {distance: [bumper, goal]}}\n");
+}
+
 }  // namespace
 
 std::vector<Kind> kinds_of_ways() {
@@ -163,6 +171,7 @@ std::vector<Kind> kinds_of_ways() {
       {"ranges_at_one_heading", {"W416"}, ranges_at_one_heading},
       {"faster_on_entry", {"W511"}, faster_on_entry},
       {"weaker_than_friction", {"W649"}, weaker_than_friction},
+      {"nearer_than_the_height", {"W511"}, nearer_than_the_height},
       {"faster_than_the_joints", {"W611"}, faster_than_the_joints},
       {"yield_beyond_the_motors", {"W647", "W619"}, yield_beyond_the_motors},
   };

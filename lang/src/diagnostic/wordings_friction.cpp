@@ -2,6 +2,7 @@
 
 #include "diagnostic/axis_units.hpp"
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
 
 namespace zwang::lang::wording {
 

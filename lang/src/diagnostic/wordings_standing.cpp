@@ -370,13 +370,14 @@ Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& 
 
 Diagnostic beyond_the_joints(const Span& span, const TooFast& fast, const Span& joint) {
   const char* unit = fast.turns ? "rad/s" : "m/s";
-  return with_related(warning("W611", span,
-                              "`" + fast.axis + "` asks for " + figure(fast.asked, unit) +
-                                  ", and the joints are fast enough for " + figure(fast.most, unit) +
-                                  " at best: " + in_ticks(fast.wheel) + " makes " +
-                                  figure(fast.wheel_most, fast.slides ? "m/s" : "rad/s") + " at most",
-                              "stay within: the guard stops an arm whose joint is faster"),
-                      joint, "this joint, by the <limit velocity> of the URDF");
+  return with_related(
+      warning("W611", span,
+              "`" + fast.axis + "` asks for " + figure(fast.asked, unit) +
+                  ", and the joints are fast enough for " + figure(fast.most, unit) +
+                  " at the joint angles that zwang looks at: " + in_ticks(fast.wheel) + " makes " +
+                  figure(fast.wheel_most, fast.slides ? "m/s" : "rad/s") + " at most",
+              "stay within: the guard stops an arm whose joint is faster"),
+      joint, "this joint, by the <limit velocity> of the URDF");
 }
 
 Diagnostic based_on_itself(const Span& span, const std::string& file, int most) {

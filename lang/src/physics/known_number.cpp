@@ -3,7 +3,8 @@
 //   measured                    lies within
 //   group.axis.position         the ranges of positions on that axis, and the regions in force; in the
 //                               first task s0 +- v t, too, also along a path
-//   a distance                  in the first task s0 +- v t, too, and no less than the regions leave
+//   a distance                  in the first task s0 +- v t, too, and no less than the regions and the
+//                               heights of its points leave
 //   group.axis.velocity         the ranges of velocities on it, and the speed of velocity drivers
 //   group.axis.force            0 and the driver's own force, or its force range; 0 where the axis is free
 //   speed(frame)                what `speed` and the ranges of the base's axes leave, and what velocity
@@ -238,15 +239,17 @@ Known KnownNumbers::known_feature(const ExpressionNode& node) {
   const bool is_asked = axis && axis->is_open() && axis->is_placed && !axis->is_set && axis->move.body == 0;
   if (!is_asked) return {};
   const Known beside = known_beside_regions(*axis);
-  const bool is_known = is_first_ && std::isfinite(until_);
-  if (!is_known || std::isfinite(beside.bounds.low)) return beside;
+  const double height = probe_.kept_height(*axis);
+  if (std::isfinite(beside.bounds.low) && beside.bounds.low > height) return beside;
+  const Known above{{height, solver::infinity}, "the height between its two points", {}, true};
+  if (!is_first_ || !std::isfinite(until_)) return height > 0.0 ? above : Known{};
   const SpeedLimit most = most_speed(plan_, axis->move, probe_),
                    driven = speed_of_drivers(plan_, axis->move, probe_);
   const SpeedLimit& limit = driven.most < most.most ? driven : most;
   const double from = probe_.position_at_start(*axis), way = limit.most * until_;
   Known known{{from - way, from + way}, limit.path, limit.span};
   known.time = until_;
-  return known;
+  return height > std::max(0.0, known.bounds.low) ? above : known;
 }
 
 /// A distance from a point of the base to a point outside of a region. The 72 directions stand for all.
