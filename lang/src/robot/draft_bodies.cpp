@@ -143,6 +143,10 @@ bool share_mass(std::vector<DraftBody>& bodies, const std::vector<DraftWheel>& w
   return true;
 }
 
+bool lacks_body(const std::vector<DraftBody>& bodies) {
+  return std::ranges::any_of(bodies, [](const DraftBody& body) { return body.lacks_mass && body.beside; });
+}
+
 std::vector<std::string> missing_of_bodies(const std::vector<DraftBody>& bodies) {
   std::vector<std::string> lines;
   for (const DraftBody& body : bodies) {

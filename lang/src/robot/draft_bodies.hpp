@@ -25,6 +25,9 @@ std::vector<DraftBody> find_draft_bodies(const Urdf& urdf, const FoundWheels& fo
 /// Whether all wheels with a motor lack a mass. It stands once in `each_wheel` then, and not at their links.
 bool share_mass(std::vector<DraftBody>& bodies, const std::vector<DraftWheel>& wheels);
 
+/// Whether the mass of the base's body is one of those that are missing.
+bool lacks_body(const std::vector<DraftBody>& bodies);
+
 /// Lines of `missing`.
 std::vector<std::string> missing_of_bodies(const std::vector<DraftBody>& bodies);
 

@@ -167,6 +167,9 @@ class Drafter {
     return sum;
   }
 
+  /// [kg] Of the robot; 0: that of its body is still to be filled in.
+  double known_mass() const { return lacks_body(bodies_) ? 0.0 : urdf_.mass(); }
+
   static bool lacks_effort(const DraftWheel& wheel) { return !wheel.effort; }
   static bool lacks_radius(const DraftWheel& wheel) { return !wheel.radius; }
 
@@ -206,7 +209,7 @@ class Drafter {
                       "`: without an <axis> it is 1 0 0; if it is another, add `axes: {" + joint +
                       ": [0, 1, 0]}`");
     for (const std::string& line : missing_of_bodies(bodies_)) lines.push_back(line);
-    if (urdf_.mass() > 0.0 && push() > floor_holds(urdf_.mass()))
+    if (known_mass() > 0.0 && push() > floor_holds(known_mass()))
       lines.push_back("the wheels' own torques: the URDF's press with " + wording::figure(push(), "N") +
                       ", and no floor holds that (W872); give `each_wheel: {effort: ..}`");
     for (const SinkingSlide& slide : sinking_)
@@ -285,7 +288,7 @@ class Drafter {
             actuated_entry(urdf_, found_, held_, bodies_, filling.effort) +
             friction_note(urdf_, found_, held_);
     text += inertias_entry(bodies_, filling.base_mass, filling.mass) + posture_entry(urdf_, folded_) +
-            stop_entry(urdf_.mass(), deceleration_, filling.force) + frames_.footprint(filling.footprint) +
+            stop_entry(known_mass(), deceleration_, filling.force) + frames_.footprint(filling.footprint) +
             frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
