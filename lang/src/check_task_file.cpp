@@ -13,7 +13,8 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
   CheckContext context{file, robot, options, checked.symbols, diagnostics, with_notes, &checked.yields};
   check_statements(context, scene, checked);
-  check_physics(context, scene, {checked.conditions, checked.always_conditions, checked.requirements}, budget);
+  check_physics(context, scene, {checked.conditions, checked.always_conditions, checked.requirements},
+                budget);
   if (scene && !diagnostics.has_errors()) {
     check_scene_names(context, *scene);
     check_unfed_signals(context, *scene);

@@ -116,7 +116,8 @@ std::optional<BareBody> find_bare_body(const Urdf& urdf, const std::string& base
   if (!(largest.inertia.mass > 0.0) && is_lighter_than_foam(lump.links, box_volume(largest)))
     return BareBody{largest.name, all};
   // A mesh has no size here. No robot is built lighter than the wheels that carry it.
-  const auto mesh = std::ranges::find_if(lump.links, &UrdfLink::has_mesh);
+  const auto mesh =
+      std::ranges::find_if(lump.links, [](const UrdfLink* link) { return !link->mesh.empty(); });
   if (mesh == lump.links.end() || (*mesh)->inertia.mass > 0.0) return std::nullopt;
   double rolling = 0.0;
   for (const std::string& wheel : wheels) rolling += urdf.find_link(wheel)->inertia.mass;

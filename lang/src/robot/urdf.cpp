@@ -223,17 +223,23 @@ std::set<std::string> find_loops(const std::vector<XmlElement>& elements) {
   return links;
 }
 
-/// Links with a <mesh>.
-std::set<std::string> find_meshed(const std::vector<XmlElement>& elements) {
-  std::set<std::string> links;
+/// By link, the file and the scale of the first mesh that it shows. A mirrored mesh is as large.
+std::map<std::string, std::string> find_meshes(const std::vector<XmlElement>& elements) {
+  std::map<std::string, std::string> meshes;
   for (const XmlElement& element : elements) {
-    if (element.name != "mesh") continue;
+    const XmlAttribute* file = element.name == "mesh" ? element.find("filename") : nullptr;
+    if (file == nullptr) continue;
     const XmlElement* above = &element;
     while (above->name != "link" && above->parent > 0)
       above = &elements[static_cast<std::size_t>(above->parent)];
-    if (const XmlAttribute* name = above->find("name")) links.insert(name->value);
+    const XmlAttribute* link = above->name == "link" ? above->find("name") : nullptr;
+    if (link == nullptr) continue;
+    const XmlAttribute* scale = element.find("scale");
+    std::string text = scale == nullptr ? "1 1 1" : scale->value;
+    std::erase(text, '-');
+    meshes.emplace(link->value, file->value + " " + text);
   }
-  return links;
+  return meshes;
 }
 
 /// Of links that move by themselves; what is fixed to another is judged with it.
@@ -248,28 +254,6 @@ void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
   }
 }
 
-/// File and scale of the first mesh that a link shows. A mirrored mesh is as large.
-std::string mesh_of(const std::vector<XmlElement>& elements, const std::string& link) {
-  const auto is_in = [&](const XmlElement& element, const char* kind) {
-    return element.parent >= 0 && elements[static_cast<std::size_t>(element.parent)].name == kind;
-  };
-  const auto link_of = [&](const XmlElement& element) {
-    const XmlElement* above = &element;
-    while (above->parent > 0) above = &elements[static_cast<std::size_t>(above->parent)];
-    const XmlAttribute* name = above->name == "link" ? above->find("name") : nullptr;
-    return name == nullptr ? std::string() : name->value;
-  };
-  for (const XmlElement& element : elements) {
-    const XmlAttribute* file = element.name == "mesh" ? element.find("filename") : nullptr;
-    if (file == nullptr || !is_in(element, "geometry") || link_of(element) != link) continue;
-    const XmlAttribute* scale = element.find("scale");
-    std::string text = scale == nullptr ? "1 1 1" : scale->value;
-    std::erase(text, '-');
-    return file->value + " " + text;
-  }
-  return "";
-}
-
 template <typename Items, typename Match>
 auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
   const auto it = std::find_if(items.begin(), items.end(), match);
@@ -278,7 +262,7 @@ auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
 
 void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>& elements,
                 const UrdfFindings& findings, Urdf& urdf) {
-  const std::set<std::string> meshed = find_meshed(elements);
+  const std::map<std::string, std::string> meshes = find_meshes(elements);
   for (const auto& [name, link] : model.links_) {
     UrdfLink result;
     result.name = name;
@@ -286,10 +270,9 @@ void read_links(const urdf::ModelInterface& model, const std::vector<XmlElement>
     for (const auto& shape : link->collision_array) {
       if (shape && shape->geometry) add_corners(*shape->geometry, to_pose(shape->origin), result.corners);
     }
-    result.has_mesh = meshed.contains(name);
     find_round_shape(link->collision_array, result);
     if (!result.radius) find_round_shape(link->visual_array, result);
-    result.mesh = mesh_of(elements, name);
+    if (const auto mesh = meshes.find(name); mesh != meshes.end()) result.mesh = mesh->second;
     if (link->inertial && !findings.weightless.contains(name))
       result.inertia = to_inertia(*link->inertial, findings.point_masses.contains(name));
     urdf.links.push_back(std::move(result));

@@ -27,8 +27,7 @@ struct UrdfLink {
   std::optional<solver::Vector3> cylinder_axis;        ///< unit vector in the link, where that is a cylinder
   solver::Vector3 round_at = solver::Vector3::Zero();  ///< [m] in the link, the middle of that shape
   std::vector<solver::Vector3> corners;  ///< [m] in the link, of the shapes that collide; a mesh has none
-  bool has_mesh = false;                 ///< among its shapes, which has no size here
-  std::string mesh;  ///< file and scale of the first mesh that is seen; links that share one are as large
+  std::string mesh;  ///< file and scale of the first one: links that share one are as large, whatever that is
 };
 
 /// A <mimic>: another joint that this one follows.
