@@ -381,8 +381,7 @@ def test_a_run_leaves_other_threads_their_turn():
 
 
 def test_the_blocks_of_the_page_run(monkeypatch, capsys):
-    page = (SPECS.parent / "docs" / "python.md").read_text()
-    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", (SPECS.parent / "docs/python.md").read_text(), re.DOTALL)
     assert len(blocks) == 8
     monkeypatch.chdir(SPECS)
     drawn = []
@@ -398,5 +397,4 @@ def test_the_blocks_of_the_page_run(monkeypatch, capsys):
     # The page's question has no answer as the file ships, and one within the range of the push at half of the speed.
     assert run.truth["wall.peak_force"] > 150.0
     assert 0 < len(names["gentle"]) < len(names["pushes"])
-    assert names["runner"].task == "press"
-    assert "E202" in capsys.readouterr().out
+    assert names["runner"].task == "press" and "E202" in capsys.readouterr().out
