@@ -106,6 +106,12 @@ TEST(Sweep, ABaseBetweenTwoWallsIsNotStopped) {
   for (const int index : {7, 22}) EXPECT_FALSE(run(draw(1, index, Which::healthy)).stopped) << index;
 }
 
+/// A base leans on one wall of a corner and hits the other one. The steady push of the first wall leaves the
+/// line of the hit for 60 ms, as with a lost motor. It gives way no farther than a spring of its depth.
+TEST(Sweep, AWallThatIsLeantOnBesideAHitIsNoLostMotor) {
+  for (const int index : {1571, 2204}) EXPECT_FALSE(run(draw(20, index, Which::healthy)).stopped) << index;
+}
+
 /// A padded wall in line with a wheel resists first with its damper, then with its spring. Together they are
 /// as even as the growing command of the wheel for 40 ms. A force that only takes energy is no motor's.
 TEST(Sweep, APaddedWallIsNoReversedMotor) {

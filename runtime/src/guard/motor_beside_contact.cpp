@@ -105,8 +105,8 @@ double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
   return is_felt && explains ? gamma : 0.0;
 }
 
-std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer,
-                                              const Eigen::VectorXd& q) noexcept {
+std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer, const Eigen::VectorXd& q,
+                                              const ContactDepth& contact) noexcept {
   const solver::FreeMotions& motions = observer.motions();
   if (motions.count != freedoms || motors_.empty()) return std::nullopt;
   if (take_directions(motions)) forget_means();
@@ -129,11 +129,14 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
       const double gamma = is_possible ? find_gamma(since, motor, T) : 0.0;
       since.ticks = gamma != 0.0 ? since.ticks + 1 : 0;
       const double at = motor.radius * q(motor.joint);
-      if (since.ticks <= 1) since.least = since.most = at;
+      if (since.ticks <= 1) {
+        since.least = since.most = at;
+        since.contact = contact.now();
+      }
       since.least = std::min(since.least, at);
       since.most = std::max(since.most, at);
       const bool lasts = since.ticks >= dwell_ticks_ && since.most - since.least > travel;
-      if (!lasts || found) continue;
+      if (!lasts || found || !contact.is_no_spring(since.contact)) continue;
       found =
           Event{kind_of(gamma), 0.0, event_signal::of_joint(motor.joint, event_signal::tau), -gamma * tau};
     }

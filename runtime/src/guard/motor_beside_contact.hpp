@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimate/disturbance.hpp"
+#include "guard/contact_depth.hpp"
 #include "guard/obedience.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/event.hpp"
@@ -24,15 +25,18 @@ namespace zwang::runtime {
 /// reported. The exception is a motor that breaks then: p leaves the line that it had. So gamma is sought
 /// twice. The first search is for a motor that was broken all the while, unless it was seen to obey
 /// (Obedience). The second is for a motor that broke when p last left its line. The check needs three free
-/// motions: with two, two contacts can have the effect of a motor. Does not allocate, lock, throw or print
-/// after construction.
+/// motions: with two, two contacts can have the effect of a motor. In a corner of two walls the steady push
+/// of one wall leaves the line of a hit on the other one, and p keeps off that line as with a motor. So p
+/// must also do what no spring does (ContactDepth). A standing wall is a spring, and two of them are one.
+/// Does not allocate, lock, throw or print after construction.
 class MotorBesideContact {
  public:
   MotorBesideContact(const lang::Robot& robot, double period);
 
   void reset() noexcept;
   /// After each comparison of the observer; `q` are the joints' positions.
-  std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q) noexcept;
+  std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q,
+                            const ContactDepth& contact) noexcept;
 
   static constexpr double memory = 0.02;  ///< [s] of the means
   static constexpr double dwell =
@@ -58,6 +62,7 @@ class MotorBesideContact {
     double tau_tau = 0.0;            ///< <tau_j^2>
     int ticks = 0;                   ///< that it has explained the force
     double least = 0.0, most = 0.0;  ///< [m] where its rim was meanwhile
+    ContactDepth::Mark contact;      ///< when it began to explain the force
   };
   struct Motor {
     int joint = 0;

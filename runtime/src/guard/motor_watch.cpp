@@ -32,7 +32,7 @@ std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solve
     if (!pusher_.is_at_work()) take(found);
   };
   take_unless_pushed(actuators_.look(observer, state.q, contact_));
-  take_unless_pushed(beside_contact_.look(observer, state.q));
+  take_unless_pushed(beside_contact_.look(observer, state.q, contact_));
   if (!runaway_.follow(sent, state.qd)) return first;
   const double power = observer.power(runaway_.rates());
   const auto p = observer.force().head(observer.motions().count);
