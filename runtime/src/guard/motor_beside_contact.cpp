@@ -40,6 +40,7 @@ void MotorBesideContact::reset() noexcept {
 
 void MotorBesideContact::forget_means() noexcept {
   p_p_.setZero();
+  share_of_hit_ = 0.0;
   ticks_on_line_ = 0;
   for (Motor& motor : motors_) motor.since = {};
 }
@@ -105,6 +106,28 @@ double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
   return is_felt && explains ? gamma : 0.0;
 }
 
+/// The mean <p p'> fades, and the share of each p with it.
+void MotorBesideContact::keep_hardest(const Vector& p, const std::array<double, 2>& parts,
+                                      const Eigen::VectorXd& told) noexcept {
+  share_of_hit_ *= 1.0 - part_;
+  if (p.squaredNorm() < share_of_hit_) return;
+  share_of_hit_ = p.squaredNorm();
+  hit_ = p;
+  for (Motor& motor : motors_) {
+    for (std::size_t i = 0; i < parts.size(); ++i) motor.since[i].tau_of_hit = parts[i] * told(motor.joint);
+  }
+}
+
+/// Whether r = p + gamma tau T is against the r of the hit: the contact beside the motor would pull. What the
+/// motor may leave off the line, sqrt(left) of its own share, counts as nothing.
+bool MotorBesideContact::pulls(const Since& since, const Motor& motor, const Vector& p, double gamma,
+                               double tau) const noexcept {
+  const Vector hit = hit_ + gamma * since.tau_of_hit * motor.T;
+  const Vector r = p + gamma * tau * motor.T;
+  const double nothing = std::sqrt(left) * std::abs(gamma * tau) * motor.T.norm();
+  return r.dot(hit) < -nothing * hit.norm();
+}
+
 std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer, const Eigen::VectorXd& q,
                                               const ContactDepth& contact) noexcept {
   const solver::FreeMotions& motions = observer.motions();
@@ -112,6 +135,7 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
   if (take_directions(motions)) forget_means();
   const Vector p = observer.force().head<freedoms>();
   const std::array parts = {1.0, broken_part(p, observer.window())};
+  keep_hardest(p, parts, observer.torque());
   p_p_ += part_ * (p * p.transpose() - p_p_);
   trace_ = p_p_.trace();
   off_line_ = 0.5 * (trace_ * trace_ - p_p_.squaredNorm());
@@ -127,7 +151,8 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
       since.tau_tau += part_ * (tau * tau - since.tau_tau);
       const bool is_possible = i > 0 || !motor.obedience.is_seen();
       const double gamma = is_possible ? find_gamma(since, motor, T) : 0.0;
-      since.ticks = gamma != 0.0 ? since.ticks + 1 : 0;
+      const bool explains = gamma != 0.0 && !pulls(since, motor, p, gamma, tau);
+      since.ticks = explains ? since.ticks + 1 : 0;
       const double at = motor.radius * q(motor.joint);
       if (since.ticks <= 1) {
         since.least = since.most = at;

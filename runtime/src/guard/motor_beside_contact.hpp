@@ -26,8 +26,10 @@ namespace zwang::runtime {
 /// twice. The first search is for a motor that was broken all the while, unless it was seen to obey
 /// (Obedience). The second is for a motor that broke when p last left its line. The check needs three free
 /// motions: with two, two contacts can have the effect of a motor. In a corner of two walls the steady push
-/// of one wall leaves the line of a hit on the other one, and p keeps off that line as with a motor. So p
-/// must also do what no spring does (ContactDepth). A standing wall is a spring, and two of them are one.
+/// of one wall leaves the line of a hit on the other one, and p keeps off that line as with a motor. Two laws
+/// of a contact refute that motor:
+///  - A contact never pulls. The hardest p that the means still know is the hit. r may not be against it.
+///  - A standing wall is a spring, and two of them are one. So p must do what no spring does (ContactDepth).
 /// Does not allocate, lock, throw or print after construction.
 class MotorBesideContact {
  public:
@@ -63,6 +65,7 @@ class MotorBesideContact {
     int ticks = 0;                   ///< that it has explained the force
     double least = 0.0, most = 0.0;  ///< [m] where its rim was meanwhile
     ContactDepth::Mark contact;      ///< when it began to explain the force
+    double tau_of_hit = 0.0;         ///< [N m] tau_j at the hardest p
   };
   struct Motor {
     int joint = 0;
@@ -75,10 +78,16 @@ class MotorBesideContact {
   void forget_means() noexcept;
   bool take_directions(const solver::FreeMotions& motions) noexcept;
   double broken_part(const Vector& p, int window) noexcept;
+  void keep_hardest(const Vector& p, const std::array<double, 2>& parts,
+                    const Eigen::VectorXd& told) noexcept;
+  bool pulls(const Since& since, const Motor& motor, const Vector& p, double gamma,
+             double tau) const noexcept;
   double find_gamma(const Since& since, const Motor& motor, const Vector& T) const noexcept;
 
   std::vector<Motor> motors_;
   Matrix p_p_ = Matrix::Zero();    ///< <p p'>
+  Vector hit_ = Vector::Zero();    ///< the p with the largest share of it
+  double share_of_hit_ = 0.0;      ///< |p|^2 of it, faded as in the mean
   Vector line_ = Vector::UnitX();  ///< n
   double trace_ = 0.0;             ///< of it
   double off_line_ = 0.0;          ///< N0
