@@ -29,7 +29,7 @@ struct WhitenedRobot {
         ground(ground_rows.row_count()),
         base(model.has_fixed_base() ? 0 : 6),
         sweeps(model, ground + base + model.joint_count(), 1),
-        rows(sweeps.robot_rows, sweeps.task_rows) {
+        rows(sweeps.robot_rows, sweeps.task_rows, least_shares(model)) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
     add_ground_rows(ground_rows, sweeps);
@@ -115,7 +115,7 @@ int base_mobility(const WhitenedRobot& robot) {
     planar.col(i) = robot.base_freedom(freedom) / std::sqrt(robot.base_free_square(freedom));
   }
   if (planar.size() == 0) return 0;
-  return static_cast<int>((squared_singular_values(planar).array() > unreachable_share).count());
+  return static_cast<int>((squared_singular_values(planar).array() > robot.rows.least_share()).count());
 }
 
 /// Columns T_j of the actuated joints, each of length 1: a rank should not depend on gears.
@@ -184,8 +184,9 @@ AxisAnalysis analyse_axis(const Model& model, const State& state, const AxisCons
   const Eigen::VectorXd B = robot.rows.motion(robot.last_row()).transpose();
   AxisAnalysis result;
   result.kappa = robot.rows.free_share(robot.last_row());
-  result.effective_mass = result.kappa > unreachable_share ? 1.0 / B.squaredNorm() : infinity;
-  if (result.kappa <= unreachable_share) return result;
+  const bool is_held = result.kappa <= robot.rows.least_share();
+  result.effective_mass = is_held ? infinity : 1.0 / B.squaredNorm();
+  if (is_held) return result;
   const Eigen::MatrixXd motors = motor_directions(model, robot);
   const Eigen::VectorXd along = motors.transpose() * B;
   const double least = rank_of(motors) == robot.rows.mobility() ? rank_tolerance : least_motor_share;

@@ -43,7 +43,7 @@ struct PopovVereshchagin::Workspace {
         ground_rows(robot),
         ground(ground_rows.row_count()),
         sweeps(robot, ground, options.row_capacity),
-        whitened(sweeps.robot_rows, sweeps.task_rows),
+        whitened(sweeps.robot_rows, sweeps.task_rows, least_shares(robot)),
         given(options.row_capacity),
         ground_bias(Eigen::VectorXd::Zero(ground)),
         wanted(Eigen::VectorXd::Zero(options.row_capacity)),
@@ -99,7 +99,7 @@ struct PopovVereshchagin::Workspace {
       given.size(i) = (is_held ? whitened.free_square(i) : given.L(i, i)) + damping;
       given.L(i, i) += damping;
     }
-    given.factorise(WhitenedRows::ground_tolerance);
+    given.factorise(LeastShares{}.of_ground);
   }
 
   /// J'A nu: every row's wrench carried rigidly inward to each joint. In the base's coordinates that is a

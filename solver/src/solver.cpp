@@ -66,7 +66,7 @@ struct Solver::Workspace {
         ground(ground_rows.row_count()),
         base(base_freedoms(robot, options.base_motion)),
         sweeps(robot, ground + base + robot.joint_count(), options.row_capacity),
-        whitened(sweeps.robot_rows, sweeps.task_rows),
+        whitened(sweeps.robot_rows, sweeps.task_rows, least_shares(robot)),
         problem(set_capacity(options), robot.joint_count(),
                 std::max(1, sweeps.task_rows.dimensions() - sweeps.task_rows.held_dimensions())),
         ground_bias(Eigen::VectorXd::Zero(ground)),
@@ -202,7 +202,7 @@ struct Solver::Workspace {
       if (is_of_another_set) {
         first = begin + i;
         const int id = ids[at];
-        problem.set_row(i, *rows[at], whitened.B(id), whitened.free_square(id));
+        problem.set_row(i, *rows[at], whitened.B(id), whitened.least_square(id));
         free_acceleration(begin + i) = whitened.acceleration(id);
       } else {
         problem.set_twin(i, *rows[at], first - begin);
@@ -364,7 +364,7 @@ void Solver::force_on_motions(int row, Eigen::VectorXd& p) const noexcept {
   const int id = w.ids[static_cast<std::size_t>(row)];
   auto B = p.head(w.whitened.mobility());
   B = w.whitened.motion(id);
-  if (B.squaredNorm() < unreachable_share * w.whitened.free_square(id)) B.setZero();
+  if (B.squaredNorm() < w.whitened.least_square(id)) B.setZero();
 }
 
 Status Solver::project_velocity(State& state) noexcept {

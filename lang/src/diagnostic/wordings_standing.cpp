@@ -195,12 +195,14 @@ Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::
 
 Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& deviations) {
   const Deviation& worst = deviations.front();
+  const bool is_trail = worst.distance > most_wheel_offset;
   Diagnostic result =
       warning("W812", span,
               "joint " + in_ticks(worst.joint) + " is drawn " + off_by(worst) +
                   " off its exact place: zwang takes the wheel as if it stood there",
               "correct its <origin> in the URDF, or name a `base` that stands on the axle; zwang corrects " +
-                  in_length(most_wheel_offset) + " and " + angle_in_degrees(most_axis_angle) + " at most");
+                  in_length(most_wheel_offset) + " and " + angle_in_degrees(most_axis_angle) + " at most" +
+                  (is_trail ? ", and a tenth of the radius under a steering that cannot swing round" : ""));
   for (const Deviation& deviation : deviations) {
     result.related.push_back(
         {deviation.span, in_ticks(deviation.joint) + " is drawn here, " + off_by(deviation) + " off"});

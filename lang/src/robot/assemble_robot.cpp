@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "diagnostic/wheel_places.hpp"
 #include "robot/supports.hpp"
 #include "spec/parse_task.hpp"
 #include "zwang/lang/plane.hpp"
@@ -63,6 +64,7 @@ class RobotAssembly {
   solver::ModelBuilder add_links() const {
     const UrdfLink& base = *urdf_.find_link(file_.base.text);
     solver::ModelBuilder builder(solver::BaseType::ground, base.name, base.inertia);
+    builder.set_steering_error(steering_error);
     std::set<std::string> added{base.name};
     const solver::Joint fixed;
     for (const UrdfJoint* above = urdf_.joint_above(base.name); above != nullptr;

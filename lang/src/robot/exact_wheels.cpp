@@ -18,6 +18,7 @@ using solver::Vector3;
 using solver::Wheel;
 
 constexpr double rounding = 1e-9;  ///< [m] and [rad]: of numbers that are written with ten digits
+constexpr double half_turn = 3.1;  ///< [rad] also where it is written as 3.14
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -63,6 +64,11 @@ class ExactWheels {
                        [&](const Wheel& wheel) { return model_.bodies()[at(wheel.body)].parent == body; });
   }
   bool is_steered_by_motor(int body) const { return steers(body) && model_.joint(body - 1).actuated; }
+  /// A caster swings round until its wheel trails. A steering that ends before half a turn cannot.
+  bool cannot_swing_round(int body) const {
+    const solver::Joint& joint = model_.joint(body - 1);
+    return is_steered_by_motor(body) && joint.lower > -half_turn && joint.upper < half_turn;
+  }
 
   Pose pose_in_base(int body) const {
     Pose pose;
@@ -177,11 +183,25 @@ class ExactWheels {
     }
     const bool is_alone = has_motor && axles.size() == 1;
     const int alone = is_alone ? axles.front().body : 0;
+    if (is_alone && std::abs(axles.front().ahead) <= most_trail(carrier, alone)) {
+      move(alone, -axles.front().ahead * axles.front().forward());
+      axles.front().ahead = 0.0;
+    }
     align(std::move(axles), has_motor);
     if (!is_alone) return;
     const Vector3 along = axle_of(alone, alone, middle).along;
     const double aside = along.dot(pose_in_base(alone).position - middle);
     if (std::abs(aside) <= most_wheel_offset + rounding) move(alone, -aside * along);
+  }
+
+  /// [m] A steering that cannot swing round holds its wheel, and the tyre scrubs within its own print. A tyre
+  /// that the load presses in by 0.5 % of its radius r touches the floor ahead of and behind its axle by
+  ///   sqrt(2 * 0.005) r = r / 10
+  double most_trail(int carrier, int wheel_body) const {
+    const auto& wheels = model_.wheels();
+    const auto is_it = [&](const Wheel& other) { return other.body == wheel_body; };
+    const double radius = std::find_if(wheels.begin(), wheels.end(), is_it)->radius;
+    return cannot_swing_round(carrier) ? std::max(most_wheel_offset, radius / tyre_print) : most_wheel_offset;
   }
 
   /// Wheels on the base, and steerings whose axles meet their axis: those do not hold the base with a lever.

@@ -10,7 +10,9 @@
 ///   1. An axis that is nearly level, or nearly along x or y of the base, is exactly so. The axis of a swivel
 ///      is upright.
 ///   2. Wheels that nearly share an axle on what carries them share it. An axle that nearly meets the axis
-///      that steers it meets it. A wheel alone stands right below.
+///      that steers it meets it. A wheel alone stands right below. Where a motor holds a steering that cannot
+///      swing round as a caster does, a tenth of the wheel's radius is near: in exact arithmetic such a wheel
+///      would turn the steering, and a steering that is held would hold the base.
 ///   3. Axles of base and steered wheels that nearly coincide while all joints are at 0 coincide. They run
 ///      through the base's origin if they nearly do.
 ///

@@ -16,6 +16,7 @@ solver::RigidInertia times(const solver::RigidInertia& inertia, double factor) {
 solver::Model times(const solver::Model& model, double factor) {
   const std::vector<solver::Body>& bodies = model.bodies();
   solver::ModelBuilder builder(model.base_type(), bodies.front().name, times(bodies.front().inertia, factor));
+  builder.set_steering_error(model.steering_error());
   for (std::size_t f = 1; f < model.frames().size(); ++f) {
     const solver::Frame& frame = model.frames()[f];
     const solver::Body& body = bodies[static_cast<std::size_t>(frame.body)];

@@ -77,7 +77,7 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, const double* B, double free_square) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, const double* B, double least_square) noexcept {
   Entry& e = entry(i);
   e.twin = -1;
   e.axis = i;
@@ -87,7 +87,7 @@ void BoundedProblem::set_row(int i, const Row& row, const double* B, double free
   const double squared = dot(e.extent, e.B, e.B);
   e.length = std::sqrt(squared);
   e.inverse_length = squared > 0.0 ? e.length * (1.0 / squared) : 0.0;
-  e.reachable = squared >= unreachable_share * free_square && squared > 0.0;
+  e.reachable = squared >= least_square && squared > 0.0;
   take_source(e, row);
 }
 

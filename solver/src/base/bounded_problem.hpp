@@ -48,9 +48,9 @@ class BoundedProblem {
 
   void resize(int rows) noexcept { rows_ = rows; }
   double& d(int row) noexcept { return d_(row); }
-  /// B stays where it is until the next problem. `free_square`: A_i M^-1 A_i', of which the ground leaves
-  /// |B|^2.
-  void set_row(int row, const Row& source, const double* B, double free_square) noexcept;
+  /// B stays where it is until the next problem. With |B|^2 below `least_square`, nothing moves along the
+  /// row.
+  void set_row(int row, const Row& source, const double* B, double least_square) noexcept;
   /// A row with the same B as an earlier one.
   void set_twin(int row, const Row& source, int twin) noexcept;
   /// False when an active set met its iteration cap; all results stay inside their bounds.

@@ -8,8 +8,9 @@
 
 namespace zwang::solver {
 
-WhitenedRows::WhitenedRows(const Columns& robot, const Columns& task)
+WhitenedRows::WhitenedRows(const Columns& robot, const Columns& task, const LeastShares& least)
     : task_(&task),
+      least_(least),
       N_(RowMajorMatrix::Zero(robot.ground_end(), robot.ground_end())),
       Q_held_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
       B_(RowMajorMatrix::Zero(task.W.rows(), task.W.cols())),
@@ -104,7 +105,7 @@ void WhitenedRows::project_task() noexcept {
 int WhitenedRows::next_pivot(int ground) const noexcept {
   constexpr double ample = 0.1;
   int pivot = -1;
-  double best = ground_tolerance;
+  double best = least_.of_ground;
   for (int k = rank_; k < ground; ++k) {
     const int row = pivots_[static_cast<std::size_t>(k)];
     if (!(left_(row) > best * size_(row))) continue;

@@ -17,16 +17,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "constraint/steered_wheels.hpp"
 #include "sweep/columns.hpp"
 
 namespace zwang::solver {
 
-/// Of A M^-1 A', what the ground leaves of a row at least, A Mc A': with less, nothing moves along it.
-inline constexpr double unreachable_share = 1e-8;
-
 class WhitenedRows {
  public:
-  WhitenedRows(const Columns& robot, const Columns& task);
+  WhitenedRows(const Columns& robot, const Columns& task, const LeastShares& least);
 
   /// Finds the reflections that make a triangle of the ground's lines, the first ones of the robot's rows,
   /// and turns all of these. That stays until the robot moves.
@@ -46,6 +44,9 @@ class WhitenedRows {
   double robot_free_square(int row) const noexcept {
     return dot(dimensions_, &robot_->W(row, 0), &robot_->W(row, 0));
   }
+  /// Of A_i Mc A_i', which is |B_i|^2: with less, nothing moves along the row.
+  double least_square(int row) const noexcept { return least_.of_row * free_square(row); }
+  double least_share() const noexcept { return least_.of_row; }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
   double free_share(int row) const noexcept;
 
@@ -67,9 +68,6 @@ class WhitenedRows {
   /// a number to spare.)
   void motion(const double* p, Eigen::VectorXd& motion) const noexcept;
 
-  static constexpr double ground_tolerance =
-      1e-10;  ///< share of a row; rounding leaves about 1e-15 on a dependent one
-
  private:
   const double* line(int row) const noexcept { return &task_->W(row, 0); }
   int free_of_ground() const noexcept { return ground_end_ - held_; }
@@ -83,6 +81,7 @@ class WhitenedRows {
 
   Columns* robot_ = nullptr;
   const Columns* task_ = nullptr;
+  LeastShares least_;
   RowMajorMatrix N_;                 ///< by dimension up to the ground's end; behind it N is 1
   RowMajorMatrix Q_held_;            ///< by turned axis that the ground holds
   RowMajorMatrix B_;                 ///< by row of the task; lines have a 0 to spare

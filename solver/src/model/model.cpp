@@ -133,6 +133,12 @@ ModelBuilder& ModelBuilder::set_gravity(const Vector3& gravity) {
   return *this;
 }
 
+ModelBuilder& ModelBuilder::set_steering_error(double angle) {
+  if (!(angle >= 0.0 && angle <= 0.1)) refuse("steering error is not from 0 to 0.1 rad");
+  model_.steering_error_ = angle;
+  return *this;
+}
+
 Model ModelBuilder::build() const {
   for (const Body& body : model_.bodies_) {
     const bool moves = body.parent >= 0 || !model_.has_fixed_base();

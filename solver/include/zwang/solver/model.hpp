@@ -77,6 +77,8 @@ class ZWANG_EXPORT Model {
   const std::vector<Frame>& frames() const { return frames_; }
   const std::vector<Wheel>& wheels() const { return wheels_; }
   const Vector3& gravity() const { return gravity_; }  ///< [m/s^2] in the world
+  /// [rad] By which a wheel that a motor steers may point aside and hold nothing. 0: the ground is exact.
+  double steering_error() const { return steering_error_; }
 
   /// Number of joints: entries of q, qd, qdd, tau. Joint j moves body j + 1.
   int joint_count() const { return static_cast<int>(bodies_.size()) - 1; }
@@ -95,6 +97,7 @@ class ZWANG_EXPORT Model {
   friend class ModelBuilder;
   BaseType base_type_ = BaseType::ground;
   Vector3 gravity_{0.0, 0.0, -9.81};
+  double steering_error_ = 0.0;
   std::vector<Body> bodies_;
   std::vector<Frame> frames_;
   std::vector<Wheel> wheels_;
@@ -121,6 +124,8 @@ class ZWANG_EXPORT ModelBuilder {
   ModelBuilder& add_wheel(const std::string& joint, Wheel wheel);
   /// [m/s^2] in the world; without a call (0, 0, -9.81).
   ModelBuilder& set_gravity(const Vector3& gravity);
+  /// [rad] from 0 to 0.1; without a call 0. The lines of steered wheels that nearly depend on each other do.
+  ModelBuilder& set_steering_error(double angle);
 
   /// Checks the inertias. The builder may go on.
   Model build() const;
