@@ -96,6 +96,10 @@ TEST(LoopInput, AHeldCommandAcceleratesAWheelAsItIsMeantTo) {
   }
 }
 
+Eigen::VectorXd any_torque(const lang::Program& program) {
+  return Eigen::VectorXd::Constant(program.robot.model.joint_count(), solver::infinity);
+}
+
 /// Samples that differ by d from where the base was led then leave d e^(-t/T) of it.
 TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
   const lang::Program program = under_law("fence", "mecanum_50_hz");
@@ -107,7 +111,7 @@ TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
   solver::State measured = state;
   measured.base_pose.position.x() = 0.01;
   for (int i = 1; i <= 2000; ++i) {
-    robot.move(state, solver, rests, i * ms);
+    robot.move(state, solver, rests, any_torque(program), i * ms);
     if (i % 20 == 0) robot.correct(measured, i * ms);
     robot.put(state);
   }
@@ -129,7 +133,7 @@ TEST(VirtualRobot, ABaseThatFollowsByTheLagIsNotCorrected) {
   robot.begin(state, 0.0);
   solver::State measured = state;
   for (int i = 1; i <= 2000; ++i) {
-    robot.move(state, solver, goes_on, i * ms);
+    robot.move(state, solver, goes_on, any_torque(program), i * ms);
     measured.base_pose.position.x() = v * (i * ms - robot.lag());
     if (i % 20 == 0) robot.correct(measured, i * ms);
     robot.put(state);

@@ -62,8 +62,19 @@ double ContactResponse::threshold(const solver::State& state) noexcept {
   return threshold_ + share_of_inertia * mass * acceleration_.head<2>().norm();
 }
 
+/// ydd = T' tau.
+void ContactResponse::take_off_beyond(const Eigen::VectorXd& most,
+                                      const solver::Solution& solution) noexcept {
+  const int m = motions_.count;
+  for (Eigen::Index j = 0; j < most.size(); ++j) {
+    const double beyond = solution.tau(j) - std::clamp(solution.tau(j), -most(j), most(j));
+    if (beyond != 0.0) y_.head(m).noalias() -= beyond * motions_.joint.row(j).head(m).transpose();
+  }
+}
+
 void ContactResponse::accelerate(const solver::Solver& solver, const solver::Solution& solution,
-                                 const solver::State& state, Eigen::VectorXd& qdd) noexcept {
+                                 const solver::State& state, const Eigen::VectorXd& most,
+                                 Eigen::VectorXd& qdd) noexcept {
   if (solver.free_motions(motions_)) {
     base_.leftCols(motions_.count) = motions_.base.leftCols(motions_.count);
     base_factor_.factorise(base_, 3, motions_.count);
@@ -73,6 +84,7 @@ void ContactResponse::accelerate(const solver::Solver& solver, const solver::Sol
   y_.head(m).noalias() = motions_.base.leftCols(m).transpose() * w_;
   pressed_for_ = w_.head<2>().norm() > threshold(state) ? pressed_on : std::max(0.0, pressed_for_ - period_);
   if (is_pressed()) {
+    take_off_beyond(most, solution);
     const solver::Vector3 V(state.base_twist.linear.x(), state.base_twist.linear.y(),
                             state.base_twist.angular.z());
     for (int k = 0; k < 3; ++k) {

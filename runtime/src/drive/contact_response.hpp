@@ -34,9 +34,9 @@ class ContactResponse {
   void begin() noexcept;
 
   /// Adds to the joints' accelerations: `qdd` begins as those of `solution`, which `solver` has at `state`,
-  /// the virtual robot's.
+  /// the virtual robot's. `most` [N m]: no motor presses with more.
   void accelerate(const solver::Solver& solver, const solver::Solution& solution, const solver::State& state,
-                  Eigen::VectorXd& qdd) noexcept;
+                  const Eigen::VectorXd& most, Eigen::VectorXd& qdd) noexcept;
 
   /// w: what presses on the base at its origin, in its axes: x, y [N] and rz [N m].
   const solver::Vector3& force() const noexcept { return w_; }
@@ -57,6 +57,7 @@ class ContactResponse {
  private:
   solver::Vector3 felt_wrench(const Sensed& sensed) const noexcept;
   double threshold(const solver::State& state) noexcept;
+  void take_off_beyond(const Eigen::VectorXd& most, const solver::Solution& solution) noexcept;
 
   double period_;
   lang::Drive drive_;

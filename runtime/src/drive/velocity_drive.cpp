@@ -14,6 +14,7 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
       period_(period),
       deceleration_(robot.stop.deceleration),
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
+      most_(Eigen::VectorXd::Constant(robot.model.joint_count(), solver::infinity)),
       row_bounds_(robot.model, row_capacity),
       set_point_(robot.drive, robot.model, period),
       radius_(footprint_radius(robot)),
@@ -74,7 +75,8 @@ double VelocityDrive::difference(const Wheel& wheel, double rate, const Allowanc
 }
 
 /// Whether it is there for longer than allowed. A virtual robot that a felt contact brakes yields to it: its
-/// motors press with all that they have until it stands. It is no fault while the difference shrinks.
+/// motors press with all that they have until it stands. It is no fault while the difference shrinks from its
+/// largest value. A hit stops the real base within a few samples, and the first of them shows little of it.
 bool VelocityDrive::lasts(Lag& lag, double difference, const Allowance& allowance,
                           double time) const noexcept {
   if (!(difference > 0.0)) lag = {};
@@ -107,6 +109,12 @@ std::optional<Event> VelocityDrive::look(const solver::State& measured, double t
                                     : is_contrary(wheel, rate, time);
     const double lag = virtual_ ? difference(wheel, rate, slow) : 0.0;
     const bool is_behind = lasts(wheel.behind, lag, slow, time);
+    // A wheel that a contact holds is slower than told. A reversed motor is not, and gets no other reference.
+    const bool may_be_held = std::abs(rate) <= std::max(std::abs(wheel.most), std::abs(wheel.least));
+    if (virtual_ && may_be_held) {
+      wheel.beyond.difference = std::max(wheel.beyond.difference, difference(wheel, rate, fast));
+      wheel.behind.difference = std::max(wheel.behind.difference, lag);
+    }
     if (!found && (is_beyond || is_behind))
       found =
           Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
@@ -149,7 +157,9 @@ void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& schedul
   slowest_ = solver::infinity;
   for (Wheel& wheel : wheels_) wheel.is_let_go = false;
   if (virtual_) {
-    virtual_->move(state, solver, solution, time + period_);
+    for (const Wheel& wheel : wheels_)
+      most_(wheel.joint) = wheel.beyond.since <= time ? limit_(wheel.joint) : solver::infinity;
+    virtual_->move(state, solver, solution, most_, time + period_);
     virtual_->tell(command);
     command.lower = -limit_;
     command.upper = limit_;

@@ -80,7 +80,7 @@ class VelocityDrive {
   static constexpr Allowance slow{0.005, 1.2};
   static constexpr double share = 0.3;
   /// While a contact is felt, the virtual robot brakes, and the real base stands already. The time begins
-  /// again if the difference shrank to this part. The way is at most 1/(1 - this) of 6 mm.
+  /// again if the largest difference d shrank to this part. The way is at most d 0.3 s / (1 - this).
   static constexpr double shrunk = 0.75;
   /// Beside, of a robot that feels and whose loops have no integral: so much of |w| T_c/m, which a loop that
   /// presses with w stays behind.
@@ -99,7 +99,7 @@ class VelocityDrive {
   /// Of what differs from its command by more than an allowance.
   struct Lag {
     double since = solver::infinity;  ///< [s]
-    double difference = 0.0;          ///< then: [rad/s] of a wheel, [m/s] of the base
+    double difference = 0.0;          ///< then, or the largest of a held wheel: [rad/s], [m/s]
   };
   struct Wheel {
     int joint = 0;
@@ -130,6 +130,9 @@ class VelocityDrive {
   double looked_at_ = 0.0;  ///< [s] at the last sample
   std::vector<Wheel> wheels_;
   Eigen::VectorXd limit_;  ///< [N m] of each joint
+  /// The virtual robot is `mass_factor` as heavy, and its motors are as strong, to accelerate it. The motor
+  /// of a wheel that does not follow accelerates nothing: it presses with its own limit.
+  Eigen::VectorXd most_;  ///< [N m]
   RowBounds row_bounds_;
   SetPoint set_point_;
   std::optional<VirtualRobot> virtual_;

@@ -104,9 +104,9 @@ void VirtualRobot::put(solver::State& state) const noexcept {
 }
 
 void VirtualRobot::move(const solver::State& state, const solver::Solver& solver,
-                        const solver::Solution& solution, double time) noexcept {
+                        const solver::Solution& solution, const Eigen::VectorXd& most, double time) noexcept {
   qdd_ = solution.qdd;
-  if (contact_) contact_->accelerate(solver, solution, state, qdd_);
+  if (contact_) contact_->accelerate(solver, solution, state, most, qdd_);
   const bool is_pressed = contact_ && contact_->is_pressed();
   state_.q = state.q + period_ * (state.qd + 0.5 * period_ * qdd_);
   state_.qd = state.qd + period_ * qdd_;

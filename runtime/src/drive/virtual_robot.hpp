@@ -82,9 +82,10 @@ class VirtualRobot {
   /// Joints and base of `state` become those of the virtual robot.
   void put(solver::State& state) const noexcept;
 
-  /// By the solution of `solver` at `state` to `time` [s], a tick later.
+  /// By the solution of `solver` at `state` to `time` [s], a tick later. While a contact is felt, no motor
+  /// gives more than `most` [N m].
   void move(const solver::State& state, const solver::Solver& solver, const solver::Solution& solution,
-            double time) noexcept;
+            const Eigen::VectorXd& most, double time) noexcept;
   /// The command to the real wheels and base that makes them follow the virtual ones.
   void tell(Command& command) const noexcept;
 
