@@ -36,7 +36,7 @@ Eigen::VectorXd accelerated(const lang::Program& led, const solver::ForceVector&
   sensed.contact_wrench = wrench;
   for (int i = 0; i < samples; ++i) response.feel(sensed, i / robot.drive.rate);
   Eigen::VectorXd qdd = solution.qdd;
-  response.accelerate(solver, solution, state, qdd);
+  response.accelerate(solver, solution, state, Eigen::VectorXd::Constant(qdd.size(), solver::infinity), qdd);
   return qdd - solution.qdd;
 }
 
@@ -73,7 +73,7 @@ solver::Vector3 felt_by_effort(const lang::Program& led, double t, double gain) 
   EXPECT_EQ(solver.solve(state, std::vector<solver::Row>{}, solution), solver::Status::ok);
   ContactResponse response(robot, 1 * ms);
   Eigen::VectorXd qdd = solution.qdd;
-  response.accelerate(solver, solution, state, qdd);
+  response.accelerate(solver, solution, state, Eigen::VectorXd::Constant(qdd.size(), solver::infinity), qdd);
   Sensed sensed(led);
   sensed.effort = Eigen::VectorXd::Constant(robot.model.joint_count(), t);
   const double cycle = 1.0 / robot.drive.rate;
