@@ -50,7 +50,7 @@ bool carries_a_wheel(const Urdf& urdf, const FoundWheels& found, const std::stri
 /// A tyre that scrubs resists a steering by at most its load times its radius, m g r / n, and a steering is
 /// as strong. With that torque it turns no faster than by 150 rad/s^2, a quarter turn in 0.14 s:
 ///   J = m g r / (150 n)
-/// A lighter one gives way to the base's least sway, and wheels that toe hold the base.
+/// A lighter one gives way to the base's least sway, and wheels that toe by more than 0.5 deg hold the base.
 double slowest_rotor(const Urdf& urdf, const FoundWheels& found, const std::string& joint) {
   constexpr double fastest = 150.0;  // [rad/s^2]
   const auto wheel = std::find_if(found.wheels.begin(), found.wheels.end(),

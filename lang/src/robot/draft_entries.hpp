@@ -19,7 +19,8 @@ std::string in_brackets(const std::vector<std::string>& names);
 std::string fixed_entry(const std::vector<std::string>& joints);
 
 /// A steering gets as much rotor inertia as it turns, and as much as its strength goes with: a servo has that
-/// behind its gear. Without it a push on a light wheel turns the steering, and wheels that toe hold the base.
+/// behind its gear. Without it a push on a light wheel turns the steering, and wheels that toe hold the base
+/// from 0.5 deg on.
 /// Empty where two driven wheels on the swivel hold it, and where the URDF has no masses. `bodies`: links to
 /// which the draft gives another inertia.
 std::string steering_rotor(const Urdf& urdf, const FoundWheels& found, const std::vector<DraftBody>& bodies,
