@@ -11,8 +11,8 @@ inline constexpr double most_wheel_offset = 5e-3;                          // [m
 inline constexpr double most_axis_angle = 2.0 * std::numbers::pi / 180.0;  // [rad]
 /// A wheel under a steering with an end to its travel may stand this part of its radius ahead or behind.
 inline constexpr double tyre_print = 10.0;
-/// By which a steered wheel may point aside and hold nothing: servos keep their angles to a few tenths of a
-/// degree, and drawn angles such as 1.57 are 0.05 deg off.
+/// By which a steered wheel may point aside and hold nothing. Servos keep their angles to a few tenths of a
+/// degree. Drawn angles such as 1.57 are 0.05 deg off.
 inline constexpr double steering_error = 0.5 * std::numbers::pi / 180.0;  // [rad]
 /// From here on it is told: a tenth of what changes a robot's motion by less than encoders see.
 inline constexpr double told_wheel_offset = 0.1e-3;                         // [m]
