@@ -1,8 +1,8 @@
 /// How nearly a ground holds a direction before it holds it.
 ///
 /// The lines of two wheels that toe by the angle e leave each other a share of sin^2 e. In exact arithmetic,
-/// four steered wheels that toe by 1e-5 rad hold the base. At 1e-4 rad a row along y holds it. No motor steers so exactly, and a tyre gives way. On a base with wheels that motors
-/// steer with the model's steering error e,
+/// four steered wheels that toe by 1e-5 rad hold the base. At 1e-4 rad a row along y holds it. No motor
+/// steers so exactly, and a tyre gives way. The model's steering error e counts where motors steer wheels:
 ///   - a wheel that toes by less than e holds nothing that the other wheels leave,
 ///   - a row of which the wheels leave less than sin^2 e holds and pushes nothing.
 #pragma once
