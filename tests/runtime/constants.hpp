@@ -3,6 +3,8 @@
 
 #include <numbers>
 
+#include "zwang/runtime/runner.hpp"  // first: an enumerator `period` behind the constant would shadow it, says GCC
+
 namespace zwang::runtime {
 
 inline constexpr double ms = 1e-3;          ///< [s]
