@@ -14,9 +14,8 @@
 //                               the first task the way to the drivers' places
 //   turned(frame)               the turning speed times the time; in the first task the turn to its place
 //   elapsed, since(own task)    that time
-//   entries(task)               its `attempts`; 1 where no way leads back to it, 0 where none leads from it
-//   to
-//                               this task
+//   entries(task)               its `attempts`; 1 where no way leads back to it, 0 where none leads from
+//                               it to this task
 //   since(task)                 nothing where no way leads from it to this task
 //   an output                   its start, and each value that the file sets it to
 //   a signal of the scene       known_signal.cpp
@@ -46,6 +45,12 @@ std::string parameter_of(const PlannedAxis& axis, solver::Quantity quantity) {
     if (end->kind == ValueKind::parameter) return end->name;
   }
   return "";
+}
+
+/// A `set` of the file may give the parameter of that quantity another value.
+bool may_be_set(const CheckContext& context, const PlannedAxis& axis, solver::Quantity quantity) {
+  const std::string parameter = parameter_of(axis, quantity);
+  return !parameter.empty() && is_set_later(context, parameter);
 }
 
 }  // namespace
@@ -151,8 +156,7 @@ Known KnownNumbers::known_way(const ExpressionNode& node) {
 
 void KnownNumbers::limit_to(Known& known, const std::optional<DrivenWay>& way) const {
   if (!way || !(way->most < known.bounds.high)) return;
-  const std::string parameter = parameter_of(*way->by, *way->by->driver);
-  if (!parameter.empty() && is_set_later(context_, parameter)) return;
+  if (may_be_set(context_, *way->by, *way->by->driver)) return;
   known = {{0.0, way->most}, way->by->path, way->by->driver_span()};
 }
 
@@ -276,9 +280,7 @@ Known KnownNumbers::known_beside_regions(const PlannedAxis& axis) const {
 /// The range of the quantity; nullopt where a `set` of the file may widen it.
 std::optional<solver::Range> KnownNumbers::range_of(const PlannedAxis& axis,
                                                     solver::Quantity quantity) const {
-  const std::string parameter = parameter_of(axis, quantity);
-  const bool is_fixed = parameter.empty() || !is_set_later(context_, parameter);
-  return is_fixed ? axis[quantity] : std::nullopt;
+  return may_be_set(context_, axis, quantity) ? std::nullopt : axis[quantity];
 }
 
 Known KnownNumbers::known_position(const PlannedAxis& axis) {
@@ -315,7 +317,8 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
   SpeedLimit limit = most_speed(plan_, axis.move, probe_);
   const double own = plan_.speed_limit(axis);
   if (own < limit.most) limit = {own, axis.path, axis.span(solver::Quantity::velocity)};
-  constexpr double beside_path = 1.0 / 0.9;  // driven_way.cpp
+  constexpr double beside_path =
+      1.0 / 0.9;  // of arc length by way, within a tenth of a radius: driven_way.cpp
   const double way = (axis.is_on_path ? beside_path : 1.0) * limit.most * latest_.time;
   const Bounds reached = both(known.bounds, {from - way, from + way});
   if (reached.low > known.bounds.low || reached.high < known.bounds.high)
@@ -331,8 +334,7 @@ Known KnownNumbers::towards_target(const PlannedAxis& axis, double from, Known k
   const bool goes = axis.driver == solver::Quantity::position ||
                     (axis.driver == solver::Quantity::velocity && !axis.stands_still());
   if (!goes || !axis.target || axis.is_spring || axis.is_soft) return known;
-  const std::string parameter = parameter_of(axis, *axis.driver);
-  if (!parameter.empty() && is_set_later(context_, parameter)) return known;
+  if (may_be_set(context_, axis, *axis.driver)) return known;
   constexpr double least = 0.02, part = 0.1;  // [m], of the way
   Bounds way;
   if (axis.driver == solver::Quantity::position) {

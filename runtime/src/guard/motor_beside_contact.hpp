@@ -25,8 +25,8 @@ namespace zwang::runtime {
 /// reported. The exception is a motor that breaks then: p leaves the line that it had. So gamma is sought
 /// twice. The first search is for a motor that was broken all the while, unless it was seen to obey
 /// (Obedience). The second is for a motor that broke when p last left its line. The check needs three free
-/// motions: with two, two contacts can have the effect of a motor. In a corner of two walls the steady push
-/// of one wall leaves the line of a hit on the other one, and p keeps off that line as with a motor. Two laws
+/// motions: with two, two contacts can have the effect of a motor. In a corner, the steady push of one wall
+/// leaves the line of a hit on the other. Then p keeps off that line as with a motor. Two laws
 /// of a contact refute that motor:
 ///  - A contact never pulls. The hardest p that the means still know is the hit. r may not be against it.
 ///  - A standing wall is a spring, and two of them are one. So p must do what no spring does (ContactDepth).

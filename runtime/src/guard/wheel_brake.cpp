@@ -113,7 +113,7 @@ void WheelBrake::brake_with_the_suspect() noexcept {
   even_looks_ = 0;
 }
 
-/// The same of a motor that was taken for lost or reversed. The growth can have another source, as a wall
+/// A motor that was taken for lost or reversed brakes likewise. The growth can have another source, as a wall
 /// that gives back. So the brake is soft, and from now on any growth leaves out another motor.
 void WheelBrake::brake_with_the_accused() noexcept {
   brake_with_the_suspect();

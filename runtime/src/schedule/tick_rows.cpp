@@ -274,7 +274,7 @@ void Scheduler::Parts::put_in_reach(const ActiveAxis& a, const RegionFence& fenc
 }
 
 /// The constraints of `always` and of the active task. As many, and in the same order, until the next switch.
-/// Those of `always` are listed again in their places.
+/// The constraints of `always` keep their places.
 void Scheduler::Parts::list_wanted() noexcept {
   wanted.resize(always_wanted);
   values_are_due = true;

@@ -36,7 +36,7 @@ inline bool is_same(const AttachedFrame& one, const AttachedFrame& other) noexce
          !(moves && (one.twist.linear != other.twist.linear || one.twist.angular != other.twist.angular));
 }
 
-/// Of two constraints along axes of frames.
+/// Whether two constraints measure the same axis of the same frames.
 inline bool is_same_axis(const AxisConstraint& one, const AxisConstraint& other) noexcept {
   return one.axis == other.axis && is_same(one.move, other.move) && is_same(one.in, other.in);
 }
