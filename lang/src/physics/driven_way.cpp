@@ -6,8 +6,8 @@
 // Encoders and contacts shake the base a little, and both measures add up: a quarter, 5 cm and 5 deg are
 // left.
 //
-// Along a path the frame goes ds = v / (1 - k y), with k the curvature and y the offset to the left. Within a
-// tenth of the least radius ds is at most v / 0.9.
+// Along a path the frame goes ds = v / (1 - k y), with k the curvature and y the offset to the left. Within
+// b of the least radius ds is at most v / (1 - b).
 #include "physics/driven_way.hpp"
 
 #include <algorithm>
@@ -90,7 +90,7 @@ std::optional<double> start_along_path(const CheckContext& context, const Planne
   if (path == nullptr || axis.axis != solver::Axis::x || !axis.is_placed || axis.is_set ||
       axis.move.body != 0)
     return std::nullopt;
-  const double most_offset = 0.1 * path->least_radius();
+  const double most_offset = beside_path * path->least_radius();
   const bool is_kept = std::any_of(plan.axes.begin(), plan.axes.end(), [&](const PlannedAxis& other) {
     return other.axis == solver::Axis::y && other.in_name == axis.in_name &&
            other.move_name == axis.move_name && other.driver == solver::Quantity::position && other.target &&

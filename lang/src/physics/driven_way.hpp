@@ -19,6 +19,10 @@ std::optional<DrivenWay> way_to_places(const PlannedTask& plan, const solver::At
 /// Of the base's turn.
 std::optional<DrivenWay> turn_to_places(const PlannedTask& plan, Probe& probe);
 
+/// The most arc length that a frame passes beside its path, by its own way: within `beside_path` of the least
+/// radius.
+inline constexpr double beside_path = 0.1, arc_by_way = 1.0 / (1.0 - beside_path);
+
 /// The arc length [m] at which the axis stands as the run starts: of `x` of a path beside which the task
 /// keeps the frame. nullopt: the frame starts or is kept too far beside it, so that a short way passes a long
 /// piece.

@@ -51,8 +51,7 @@ double latest_end(const CheckContext& context, const PlannedTask& plan,
 }
 
 double speed_of_base(const PlannedTask& plan, Probe& probe) {
-  const solver::AttachedFrame origin{0, {}};
-  return std::min(most_speed(plan, origin, probe).most, speed_of_drivers(plan, origin, probe).most);
+  return speed_in_force(plan, {0, {}}, probe).most;
 }
 
 bool holds_its_heading(const PlannedTask& plan) {

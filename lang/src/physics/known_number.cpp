@@ -128,8 +128,7 @@ Known KnownNumbers::of(const ExpressionNode& node) {
 }
 
 Known KnownNumbers::known_speed(const ExpressionNode& node) {
-  const SpeedLimit most = limit_of(node), driven = driven_limit(node);
-  const SpeedLimit& limit = driven.most < most.most ? driven : most;
+  const SpeedLimit limit = limit_of(node);
   Known known{{0.0, limit.most}, limit.path, limit.span};
   known.speed = limit.most;
   return known;
@@ -138,8 +137,7 @@ Known KnownNumbers::known_speed(const ExpressionNode& node) {
 Known KnownNumbers::known_way(const ExpressionNode& node) {
   Known known;
   if (std::isfinite(until_)) {
-    const SpeedLimit most = limit_of(node), driven = driven_limit(node);
-    const SpeedLimit& limit = driven.most < most.most ? driven : most;
+    const SpeedLimit limit = limit_of(node);
     known = {{0.0, limit.most * until_}, limit.path, limit.span};
     known.speed = limit.most;
     known.time = until_;
@@ -202,12 +200,7 @@ Known KnownNumbers::known_entries(const ExpressionNode& node) const {
 
 SpeedLimit KnownNumbers::limit_of(const ExpressionNode& node) {
   const Place place = place_of(context_, node.index);
-  return place.is_known ? most_speed(plan_, place.frame, probe_) : SpeedLimit{};
-}
-
-SpeedLimit KnownNumbers::driven_limit(const ExpressionNode& node) {
-  const Place place = place_of(context_, node.index);
-  return place.is_known ? speed_of_drivers(plan_, place.frame, probe_) : SpeedLimit{};
+  return place.is_known ? speed_in_force(plan_, place.frame, probe_) : SpeedLimit{};
 }
 
 Known KnownNumbers::known_coordinate(const ExpressionNode& node) {
@@ -247,9 +240,7 @@ Known KnownNumbers::known_feature(const ExpressionNode& node) {
   if (std::isfinite(beside.bounds.low) && beside.bounds.low > height) return beside;
   const Known above{{height, solver::infinity}, "the height between its two points", {}, true};
   if (!is_first_ || !std::isfinite(until_)) return height > 0.0 ? above : Known{};
-  const SpeedLimit most = most_speed(plan_, axis->move, probe_),
-                   driven = speed_of_drivers(plan_, axis->move, probe_);
-  const SpeedLimit& limit = driven.most < most.most ? driven : most;
+  const SpeedLimit limit = speed_in_force(plan_, axis->move, probe_);
   const double from = probe_.position_at_start(*axis), way = limit.most * until_;
   Known known{{from - way, from + way}, limit.path, limit.span};
   known.time = until_;
@@ -317,9 +308,7 @@ Known KnownNumbers::known_position(const PlannedAxis& axis) {
   SpeedLimit limit = most_speed(plan_, axis.move, probe_);
   const double own = plan_.speed_limit(axis);
   if (own < limit.most) limit = {own, axis.path, axis.span(solver::Quantity::velocity)};
-  constexpr double beside_path =
-      1.0 / 0.9;  // of arc length by way, within a tenth of a radius: driven_way.cpp
-  const double way = (axis.is_on_path ? beside_path : 1.0) * limit.most * latest_.time;
+  const double way = (axis.is_on_path ? arc_by_way : 1.0) * limit.most * latest_.time;
   const Bounds reached = both(known.bounds, {from - way, from + way});
   if (reached.low > known.bounds.low || reached.high < known.bounds.high)
     known = {reached, limit.path, limit.span};

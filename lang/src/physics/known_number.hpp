@@ -38,7 +38,6 @@ class KnownNumbers {
   bool is_yet_to_come(const std::string& task) const;
   Known known_entries(const ExpressionNode& node) const;
   SpeedLimit limit_of(const ExpressionNode& node);
-  SpeedLimit driven_limit(const ExpressionNode& node);
   Known known_coordinate(const ExpressionNode& node);
   const PlannedAxis* feature_axis(const ExpressionNode& node) const;
   Known known_feature(const ExpressionNode& node);

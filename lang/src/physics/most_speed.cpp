@@ -95,4 +95,9 @@ SpeedLimit speed_of_drivers(const PlannedTask& plan, const solver::AttachedFrame
   return driven;
 }
 
+SpeedLimit speed_in_force(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe) {
+  const SpeedLimit most = most_speed(plan, point, probe), driven = speed_of_drivers(plan, point, probe);
+  return driven.most < most.most ? driven : most;
+}
+
 }  // namespace zwang::lang

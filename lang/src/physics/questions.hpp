@@ -158,6 +158,8 @@ SpeedLimit most_turning(const PlannedTask& plan, Probe& probe);
 /// The speed that drivers of velocity give to the base's origin, with a tenth for overshoot. Infinite where
 /// anything else drives it, or where nothing moves it.
 SpeedLimit speed_of_drivers(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
+/// The lesser of both.
+SpeedLimit speed_in_force(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
 
 /// Acceleration that the plan allows along the axis in the direction of `sign`. It counts ranges on that very
 /// axis, and on the base's own axes of the same kind. Infinite where there is none. `own`: the axis's own
