@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings.hpp"
@@ -51,8 +52,12 @@ constexpr std::array reasons{
 }  // namespace
 
 Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason) {
-  return error("E109", span, "cannot read " + in_ticks(path) + ": " + reason,
-               span.exists() ? "paths are seen from the folder of the file that names them" : "");
+  const bool is_a_name = !std::filesystem::path(path).has_extension();
+  const char* help = is_a_name
+                         ? "write the path of a file; what ships goes by its name on the command line, as "
+                           "`--robot kelo_base` or `--scene wall`"
+                         : "paths are seen from the folder of the file that names them";
+  return error("E109", span, "cannot read " + in_ticks(path) + ": " + reason, span.exists() ? help : "");
 }
 
 Diagnostic not_a_path(const Span& span, const std::string& written) {
