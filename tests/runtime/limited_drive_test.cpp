@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "constants.hpp"
+#include "drive/loop_gain.hpp"
 #include "drive/velocity_drive.hpp"
-#include "plant/velocity_loop.hpp"
 #include "recorded_run.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
@@ -88,7 +88,7 @@ TEST(LimitedDrive, AMotorThatIsBrokenIsStoppedOrStaysInItsBounds) {
                 to_string(runner.state()), to_string(runner.guard().reason()), plant.truth().time, fastest,
                 plant.truth().objects[0].peak_force);
     if (kind == lang::FaultKind::torque_flipped) {
-      const double gained = 0.3 * 2.0 * push / VelocityLoop::driven_mass(program.robot);
+      const double gained = 0.3 * 2.0 * push / driven_mass(program.robot);
       EXPECT_EQ(runner.guard().reason(), EventCode::not_followed);
       EXPECT_TRUE(runner.finished());
       EXPECT_LT(fastest, 1.3 * cruise + 0.02 + gained);

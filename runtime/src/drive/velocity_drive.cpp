@@ -31,6 +31,8 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
   if (drive_.feels_contact() && !drive_.integral_time)
     bent_per_force_ = bent * drive_.time_constant * drive_.mass_factor / robot.model.total_mass();
   if (drive_.has_virtual_robot()) virtual_.emplace(robot, period);
+  if (drive_.feels_contact() && drive_.feels.by == lang::Feels::By::effort)
+    effort_watch_.emplace(robot, period);
 }
 
 void VelocityDrive::take(const solver::State& state, double stamp) noexcept {
@@ -163,6 +165,7 @@ void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& schedul
     virtual_->tell(command);
     command.lower = -limit_;
     command.upper = limit_;
+    if (effort_watch_) effort_watch_->tell(command.velocity, time);
     return remember(command);
   }
   pressing_ = command.torque - compensation;
@@ -210,6 +213,7 @@ void VelocityDrive::ramp_to_rest(Command& command) const noexcept {
 
 void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept {
   command.torque.setZero();
+  if (effort_watch_) effort_watch_->begin();
   if (virtual_) {
     ramp_to_rest(command);
     return remember(command);
@@ -237,14 +241,16 @@ void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& comma
   remember(command);
 }
 
-void VelocityDrive::rest(Command& command) const noexcept {
+void VelocityDrive::rest(Command& command) noexcept {
   if (!virtual_) return;
+  if (effort_watch_) effort_watch_->begin();
   command.velocity.setZero();
   command.twist.setZero();
 }
 
 void VelocityDrive::go_on_from(VelocityDrive& before) noexcept {
   std::swap(virtual_, before.virtual_);
+  std::swap(effort_watch_, before.effort_watch_);
   measured_ = before.measured_;
   measured_at_ = before.measured_at_;
   wheels_ = before.wheels_;

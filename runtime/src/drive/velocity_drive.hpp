@@ -8,6 +8,7 @@
 #include "drive/set_point.hpp"
 #include "drive/torque_box.hpp"
 #include "drive/virtual_robot.hpp"
+#include "guard/effort_watch.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/command.hpp"
 #include "zwang/runtime/event.hpp"
@@ -51,6 +52,9 @@ class VelocityDrive {
   /// event has the wheel's rate, or the base's speed.
   std::optional<Event> look(const solver::State& measured, double time) noexcept;
 
+  /// Of a robot that measures its motors' torques; else nothing. With a new sample.
+  EffortWatch* effort_watch() noexcept { return effort_watch_ ? &*effort_watch_ : nullptr; }
+
   /// The command while the task runs. `solver` has solved the rows of `scheduler` for `state`, at `time` [s].
   /// `compensation` is added to the torques against friction.
   void drive(const solver::Solver& solver, const Scheduler& scheduler, const solver::Solution& solution,
@@ -62,7 +66,7 @@ class VelocityDrive {
   /// it is braked. Its motor does the contrary of its command, and the others take the energy.
   void brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept;
   /// The run is over, and perhaps nothing more is sent: a drive that pushes as hard as it can is told 0.
-  void rest(Command& command) const noexcept;
+  void rest(Command& command) noexcept;
   /// Whether such a drive is told to move.
   bool moves(const Command& command) const noexcept {
     return virtual_.has_value() && !(command.velocity.isZero(0.0) && command.twist.isZero(0.0));
@@ -136,6 +140,7 @@ class VelocityDrive {
   RowBounds row_bounds_;
   SetPoint set_point_;
   std::optional<VirtualRobot> virtual_;
+  std::optional<EffortWatch> effort_watch_;
   double bent_per_force_ = 0.0;  ///< [m/s N] `bent` T_c/m
   double bent_by_ = 0.0;         ///< [m/s] by what is felt now
   double radius_;                ///< [m] of the footprint about the base's origin

@@ -50,6 +50,8 @@ constexpr std::array event_words{
                "the base, or a wheel, does not move as the drive is told"},
     EventWords{EventCode::frozen_base, "frozen_base",
                "the wheels roll, and the measured base stays as it was"},
+    EventWords{EventCode::effort_lost, "effort_lost",
+               "the measured torque of a motor is not what its velocity loop must give"},
     EventWords{EventCode::clock_refused, "clock_refused", "a sample's time was refused"},
     EventWords{EventCode::clock_drift, "clock_drift",
                "the samples' clock and the control period differ by more than a tenth"},
@@ -72,6 +74,7 @@ constexpr std::array event_words{
         EventCode::motor_obeyed, "motor_obeyed",
         "in the stop's brake this motor obeyed: a mass that is not the model's, or a push, looked like "
         "its fault"},
+    EventWords{EventCode::drive_at_limit, "drive_at_limit", "the measured torque of a motor is at its limit"},
 };
 
 constexpr bool is_in_order() {

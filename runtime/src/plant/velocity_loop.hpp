@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "drive/loop_gain.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/command.hpp"
 
@@ -54,18 +55,11 @@ class SampledLine {
   double next_ = 0.0;                                  ///< [s] when a value is taken
 };
 
-/// A PI loop at each driven wheel, in each step of the simulation:
-///     torque = k_p (V - v) + k_i sum (V - v) dt,   k_p = m R^2 / (n T_c),   k_i = k_p / T_i,
-/// inside the command's bounds and the motor's limit. m is the mass that n wheels of the radius R drive,
-/// rotors included. Alone on the floor the base follows a step as 1 - e^(-t/T_c), apart from the integral.
-/// The weight of a wheel is its rotation for a way of the base. It is averaged over the directions in which
-/// motors drive the base: an omni wheel counts half. The integral is frozen while the torque is at a bound
-/// and the error would push it farther.
+/// The loops of `loop_gains`, in each step of the simulation, inside the command's bounds and the motor's
+/// limit. The integral is frozen while the torque is at a bound and the error would push it farther.
 ///
 /// A drive with torque limits of its own takes the motors' limits, whatever the command says. A drive that
-/// takes the base's twist turns it into V as drivers do, by the places of the wheels. With u the direction
-/// that the wheel holds at its contact point P, and d the way of P for 1 rad of the wheel,
-///     u . (v + w z x P + V d) = 0.
+/// takes the base's twist turns it into V as drivers do, by the places of the wheels.
 class VelocityLoop {
  public:
   explicit VelocityLoop(const lang::Robot& robot);
@@ -73,20 +67,13 @@ class VelocityLoop {
   /// The motors' torques; `qd` as it is now. Does not allocate, lock, throw or print.
   const Eigen::VectorXd& step(const Command& command, const Eigen::VectorXd& qd, double period) noexcept;
 
-  static double driven_mass(const lang::Robot& robot);  ///< m [kg]
-
  private:
   struct Wheel {
-    int joint = 0;
-    double limit = 0.0;         ///< [N m]
-    double proportional = 0.0;  ///< k_p [N m s/rad]
-    double integral = 0.0;      ///< k_i [N m/rad]
-    double sum = 0.0;           ///< [N m] of the integral
-    /// V for 1 m/s of the base's x, of its y, and 1 rad/s. [rad/s]
-    Eigen::Vector3d per_twist = Eigen::Vector3d::Zero();
+    LoopGain gain;
+    double sum = 0.0;  ///< [N m] of the integral
   };
   double wanted_velocity(const Wheel& wheel, const Command& command) const noexcept {
-    return takes_twist_ ? wheel.per_twist.dot(command.twist) : command.velocity(wheel.joint);
+    return takes_twist_ ? wheel.gain.per_twist.dot(command.twist) : command.velocity(wheel.gain.joint);
   }
 
   bool takes_twist_;

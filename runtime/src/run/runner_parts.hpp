@@ -44,6 +44,7 @@ struct Runner::Parts {
   /// The state of a robot whose drive sends samples at a lower rate than the ticks.
   void estimate_between_samples(const Sensed& sensed) noexcept;
   void estimate_base(const Sensed& sensed, double time) noexcept;
+  void look_at_efforts(const Sensed& sensed, double stamp) noexcept;
   void take_signals(const Sensed& sensed) noexcept;
   void mend_rates() noexcept;
   /// [s] by the guard's clock.

@@ -47,6 +47,7 @@ void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
     if (guard.stopped()) mend_rates();
     estimate_base(sensed, stamp);
     stop(drive->look(estimated.state, stamp));
+    look_at_efforts(sensed, stamp);
     drive->take(estimated.state, stamp);
     drive->feel(sensed, stamp);
   } else {
@@ -55,6 +56,13 @@ void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
   take_signals(sensed);
   drive->carry_on(estimated.time, estimated.state);
   if (drive->has_virtual_robot()) drive->put_virtual(estimated.time, guard.stopped(), estimated.state);
+}
+
+void Runner::Parts::look_at_efforts(const Sensed& sensed, double stamp) noexcept {
+  EffortWatch* watch = drive->effort_watch();
+  if (watch == nullptr || guard.stopped()) return;
+  stop(watch->look(sensed, stamp));
+  if (const auto found = watch->look_at_limits(stamp)) tell(*found);
 }
 
 void Runner::Parts::estimate_base(const Sensed& sensed, double time) noexcept {

@@ -10,7 +10,7 @@
 
 namespace zwang::runtime {
 
-/// The kind of an event. The codes from `bad_sample` to `frozen_base` latch the protective stop.
+/// The kind of an event. The codes from `bad_sample` to `effort_lost` latch the protective stop.
 enum class EventCode {
   none,
   // These codes latch the protective stop.
@@ -39,6 +39,8 @@ enum class EventCode {
   not_followed,  ///< a wheel is faster than a drive that takes velocities was told, or turns against it, or
                  ///< stays behind where the drive has torque limits of its own; `value`: its rate
   frozen_base,   ///< the wheels roll, and the measured base stays as it was; `value`: how far they say [m]
+  effort_lost,   ///< the measured torque of a wheel's motor is not that of its velocity loop; `value`: the
+                 ///< torque
   // These codes are only reported.
   clock_refused,   ///< time went backwards, or jumped
   clock_drift,     ///< the samples' clock is off by more than a tenth; `value`: its rate
@@ -54,9 +56,10 @@ enum class EventCode {
   not_at_rest,  ///< the longest time of a stop is over, and no sample shows the base at rest; `value`: its
                 ///< speed, as far as it is known
   overrun,  ///< the host has skipped five control cycles within a second; `value`: how late the last was [s]
-  motor_obeyed,  ///< the motor that the stop is about obeyed in the stop's brake
+  motor_obeyed,    ///< the motor that the stop is about obeyed in the stop's brake
+  drive_at_limit,  ///< the measured torque of a wheel's motor is at its limit for 0.2 s; `value`: the torque
 };
-inline constexpr EventCode last_event_code = EventCode::motor_obeyed;
+inline constexpr EventCode last_event_code = EventCode::drive_at_limit;
 ZWANG_EXPORT const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
 ZWANG_EXPORT const char* describe(EventCode code) noexcept;
