@@ -258,10 +258,10 @@ TEST_F(CliPlan, update_fits_the_task_to_the_masses_and_torques_that_were_filled_
   const std::string fit = "zwang robot init loaded.urdf --update loaded.yaml --task feel_wall";
   EXPECT_NE(made.out.find(fit), std::string::npos) << made.out;
   const std::string first = read(folder_ / "loaded_feel_wall.yaml");
-  EXPECT_NE(first.find("force: 41 N"), std::string::npos) << first;
+  EXPECT_NE(first.find("force: 41"), std::string::npos) << first;
   std::string text = read(folder_ / "loaded.yaml");
   for (const auto& [open, value] : {std::pair{"effort: FILL_IN", "effort: 0.2 N m"},
-                                    {"base_link: {mass: FILL_IN", "base_link: {mass: 2.6 kg"},
+                                    {"base_link: \\{mass: FILL_IN", "base_link: {mass: 2.6 kg"},
                                     {"mass: FILL_IN", "mass: 0.2 kg"},
                                     {"force: FILL_IN", "force: 3 N"}})
     text = std::regex_replace(text, std::regex(open), value);
