@@ -106,6 +106,27 @@ TEST_F(DraftOfHabits, finds_held_wheels_on_a_link_that_is_called_a_wheel_base) {
   EXPECT_EQ(draft->wheels.size(), 4U);
 }
 
+// Three held wheels at 120 deg whose links are called drivewhl: each axle points to the middle.
+TEST_F(DraftOfHabits, knows_the_short_word_for_a_wheel) {
+  std::string parts;
+  for (const auto& [number, at] : {std::pair{"1", "xyz='.1 -.1732 0' rpy='0 0 0.523599'"},
+                                   {"2", "xyz='-.2 0 0' rpy='0 0 1.570796'"},
+                                   {"3", "xyz='.1 .1732 0' rpy='0 0 2.617994'"}}) {
+    const std::string name = std::string("drivewhl") + number;
+    parts +=
+        "<link name='" + name + "'>" + inertial_element("1", "ixx='.002' iyy='.003' izz='.002'") +
+        "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.08' length='.04'/></geometry>"
+        "</collision></link><joint name='" +
+        name + "_joint' type='fixed'><parent link='chassis'/><child link='" + name + "'/><origin " + at +
+        "/><axis xyz='0 1 0'/></joint>";
+  }
+  const auto draft =
+      this->draft(folder_.write("omni.urdf", "<robot name='r'>" + chassis() + parts + "</robot>"));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("{joint: drivewhl2_joint, radius: 80 mm, roller: 90 deg}"), std::string::npos)
+      << draft->text;
+}
+
 // A wheel's hub and tyre are parts of the wheel: they stand where it stands.
 TEST_F(DraftOfHabits, takes_held_parts_of_a_wheel_for_no_wheels) {
   std::string parts;
