@@ -162,17 +162,32 @@ struct Written {
   }
 };
 
-void add_task(const std::string& task, const lang::BaseFit& fit, const Files& files, Written& written) {
-  const lang::TaskTexts texts = fitted(task, fit, files);
-  const auto add = [&](const fs::path& file, const std::string& text) {
-    if (fs::exists(file)) {
-      written.report += file.string() + ": is there already, and kept\n";
-    } else {
-      written.add(file.string(), text, "written");
-    }
+/// The texts that `init` writes while nothing is filled in. A file that still reads so was changed by nobody.
+std::vector<lang::TaskTexts> unfilled_texts(const RobotInitArguments& arguments, const Files& files,
+                                            const lang::RobotDraft& with_entries) {
+  std::vector<lang::TaskTexts> texts{fitted(*arguments.task, lang::base_fit(with_entries), files)};
+  lang::Diagnostics unheard;
+  if (const auto draft = drafted(arguments, files.robot.string(), {}, unheard))
+    texts.push_back(fitted(*arguments.task, lang::base_fit(*draft), files));
+  return texts;
+}
+
+/// `unfilled`: none of a new robot file.
+void add_task(const std::string& task, const lang::BaseFit& fit, const Files& files,
+              const std::vector<lang::TaskTexts>& unfilled, Written& written) {
+  const auto add = [&](const fs::path& file, std::string lang::TaskTexts::*part, const std::string& text) {
+    if (!fs::exists(file)) return written.add(file.string(), text, "written");
+    const std::string old_text = text_of(file);
+    const bool is_as_written = std::any_of(unfilled.begin(), unfilled.end(),
+                                           [&](const auto& texts) { return texts.*part == old_text; });
+    if (is_as_written && old_text != text)
+      return written.add(file.string(), text, "fitted to what you filled in; nobody had changed it");
+    written.report +=
+        file.string() + ": is there already, and kept" + (old_text == text ? "; it fits\n" : "\n");
   };
-  add(files.task, texts.task);
-  add(files.scene, texts.scene);
+  const lang::TaskTexts texts = fitted(task, fit, files);
+  add(files.task, &lang::TaskTexts::task, texts.task);
+  add(files.scene, &lang::TaskTexts::scene, texts.scene);
 }
 
 /// The folder that a robot file reads from: the nearest above it with a `.zwang-root`, else its own.
@@ -204,10 +219,19 @@ std::string how_to_reach(const fs::path& robot_file, const std::string& urdf) {
          ".zwang-root    the robot file may read files below that folder then, as the URDF\n";
 }
 
-std::string what_next(bool has_task, const Files& files, const std::string& urdf) {
+/// `fit`: the command that fits the task again once the robot file is filled in; empty: no place is open.
+std::string what_next(bool has_task, const Files& files, const std::string& urdf, const std::string& fit) {
   const std::string file = (has_task ? files.task : files.robot).string();
-  return "\nthen\n" + how_to_reach(files.robot, urdf) + "  zwang validate " + file + "\n" +
-         (has_task ? "  zwang run " + file + "\n" : "");
+  return "\nthen\n" + how_to_reach(files.robot, urdf) +
+         (has_task && !fit.empty() ? "  " + fit + "    fits the task to what you filled in\n" : "") +
+         "  zwang validate " + file + "\n" + (has_task ? "  zwang run " + file + "\n" : "");
+}
+
+/// Empty where no place of the robot file is open.
+std::string how_to_fit(const RobotInitArguments& arguments, const Files& files, const std::string& text) {
+  if (!arguments.task || lang::open_places(text).to_fill_in.empty()) return "";
+  return "zwang robot init " + arguments.urdf + " --update " + files.robot.string() + " --task " +
+         *arguments.task;
 }
 
 std::string listed(const std::string& title, const std::vector<lang::UpdateNote>& notes) {
@@ -230,10 +254,11 @@ int write_new(const RobotInitArguments& arguments) {
   const bool has_task = arguments.task && why_not.empty();
   Written written;
   written.add(files.robot.string(), draft->text, "written");
-  if (has_task) add_task(*arguments.task, fit, files, written);
+  if (has_task) add_task(*arguments.task, fit, files, {}, written);
   written.write();
   print(written.report + "\n" + to_decide(files.robot.string(), draft->text) +
-        titled_list("not in the URDF", draft->missing) + what_next(has_task, files, arguments.urdf));
+        titled_list("not in the URDF", draft->missing) +
+        what_next(has_task, files, arguments.urdf, how_to_fit(arguments, files, draft->text)));
   if (!why_not.empty()) refuse_task(*arguments.task, fit, *draft, why_not);
   return exit_good;
 }
@@ -274,13 +299,13 @@ int update(const RobotInitArguments& arguments, const Files& files) {
   if (arguments.task)
     why_not = robot ? lang::why_unfit(*arguments.task, fit) : why_no_task(*arguments.task, fit, *draft);
   const bool has_task = arguments.task && why_not.empty();
-  if (has_task) add_task(*arguments.task, fit, files, written);
+  if (has_task) add_task(*arguments.task, fit, files, unfilled_texts(arguments, files, *draft), written);
   written.write();
   print(written.report + "\n" + listed("added, in " + files.robot.string(), changed->added) +
         listed("the URDF has no such joint or link any more: remove it", changed->vanished) +
         listed("kept, and the URDF says otherwise", changed->differ) +
         listed("to fill in", lang::open_places(changed->text).to_fill_in) +
-        what_next(has_task, files, arguments.urdf));
+        what_next(has_task, files, arguments.urdf, how_to_fit(arguments, files, changed->text)));
   if (!why_not.empty()) refuse_task(*arguments.task, fit, *draft, why_not);
   return exit_good;
 }

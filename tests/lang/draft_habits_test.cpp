@@ -76,6 +76,91 @@ std::string four_wheels(const std::string& rear_left, const std::string& rear_ri
          wheel_at("rear_right", "chassis", "-.2 -.25 0", rear_right) + "</robot>";
 }
 
+/// Held by its joint, of 1 kg, drawn by a mesh.
+std::string held_part(const std::string& name, const std::string& parent, const std::string& xyz) {
+  return "<link name='" + name + "'>" + inertial_element("1", "ixx='.002' iyy='.003' izz='.002'") +
+         "<collision><geometry><mesh filename='w.stl'/></geometry></collision></link><joint name='" + name +
+         "_joint' type='fixed'><parent link='" + parent + "'/><child link='" + name + "'/><origin xyz='" +
+         xyz + "'/></joint>";
+}
+
+// A carriage that is called a wheel base, with four held wheels, a cover and a scanner whose names say wheel.
+TEST_F(DraftOfHabits, finds_held_wheels_on_a_link_that_is_called_a_wheel_base) {
+  std::string parts = held_part("wheel_base", "chassis", "0 0 -.1");
+  for (const char* at :
+       {"front_left .2 .2 0", "front_right .2 -.2 0", "rear_left -.2 .2 0", "rear_right -.2 -.2 0"}) {
+    const std::string place = at;
+    const std::size_t end = place.find(' ');
+    parts += held_part("wheels_" + place.substr(0, end), "wheel_base", place.substr(end + 1));
+  }
+  parts +=
+      held_part("wheels_top", "wheel_base", "0 0 .1") + held_part("wheels_laser", "wheel_base", ".3 0 .1");
+  const auto draft =
+      this->draft(folder_.write("noid.urdf", "<robot name='r'>" + chassis() + parts + "</robot>"));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(
+      draft->text.find("turns: [wheels_front_left_joint, wheels_front_right_joint, wheels_rear_left_joint, "
+                       "wheels_rear_right_joint]"),
+      std::string::npos)
+      << draft->text;
+  EXPECT_EQ(draft->wheels.size(), 4U);
+}
+
+// Three held wheels at 120 deg whose links are called drivewhl: each axle points to the middle.
+TEST_F(DraftOfHabits, knows_the_short_word_for_a_wheel) {
+  std::string parts;
+  for (const auto& [number, at] : {std::pair{"1", "xyz='.1 -.1732 0' rpy='0 0 0.523599'"},
+                                   {"2", "xyz='-.2 0 0' rpy='0 0 1.570796'"},
+                                   {"3", "xyz='.1 .1732 0' rpy='0 0 2.617994'"}}) {
+    const std::string name = std::string("drivewhl") + number;
+    parts +=
+        "<link name='" + name + "'>" + inertial_element("1", "ixx='.002' iyy='.003' izz='.002'") +
+        "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.08' length='.04'/></geometry>"
+        "</collision></link><joint name='" +
+        name + "_joint' type='fixed'><parent link='chassis'/><child link='" + name + "'/><origin " + at +
+        "/><axis xyz='0 1 0'/></joint>";
+  }
+  const auto draft =
+      this->draft(folder_.write("omni.urdf", "<robot name='r'>" + chassis() + parts + "</robot>"));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("{joint: drivewhl2_joint, radius: 80 mm, roller: 90 deg}"), std::string::npos)
+      << draft->text;
+}
+
+// A wheel's hub and tyre are parts of the wheel: they stand where it stands.
+TEST_F(DraftOfHabits, takes_held_parts_of_a_wheel_for_no_wheels) {
+  std::string parts;
+  for (const std::string side : {"left", "right"}) {
+    const std::string wheel = side + "_wheel";
+    parts += held_part(wheel, "chassis", side == "left" ? "0 .2 0" : "0 -.2 0") +
+             held_part(side + "_wheel_hub", wheel, "0 .004 0") +
+             held_part(side + "_wheel_tyre", wheel, "0 -.004 0");
+  }
+  const auto draft =
+      this->draft(folder_.write("hubs.urdf", "<robot name='r'>" + chassis() + parts + "</robot>"));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("turns: [left_wheel_joint, right_wheel_joint]"), std::string::npos)
+      << draft->text;
+}
+
+// Two sizes of wheels, drawn by meshes: their axles stand 40 mm apart in height, and the ground is level.
+TEST_F(DraftOfHabits, tells_how_much_higher_an_axle_of_unknown_radius_is_drawn) {
+  const std::regex shape("<collision><origin[^>]*><geometry><cylinder[^>]*></geometry></collision>");
+  const std::string meshes =
+      std::regex_replace(two_wheels_and(wheel_at("rear_left_wheel", "chassis", "-.3 .2 .04") +
+                                        wheel_at("rear_right_wheel", "chassis", "-.3 -.2 .04")),
+                         shape, "");
+  const auto draft = this->draft(folder_.write("sizes.urdf", meshes));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(
+      draft->text.find("{joint: rear_left_wheel_joint, radius: FILL_IN}  # from the axle to the ground, "
+                       "measured; drawn 40 mm higher than the lowest axle"),
+      std::string::npos)
+      << draft->text;
+  EXPECT_NE(draft->text.find("{joint: left_wheel_joint, radius: FILL_IN}\n"), std::string::npos)
+      << draft->text;
+}
+
 // A belt turns two wheels in line alike, and so does the floor: the motor of one of them drives both.
 TEST_F(DraftOfHabits, couples_wheels_in_line_that_mimic) {
   const auto draft =

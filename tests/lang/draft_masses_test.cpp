@@ -123,6 +123,29 @@ TEST_F(DraftOfHabits, asks_for_the_mass_of_a_body_that_only_its_parts_weigh_for)
   EXPECT_EQ(said_of(test::replaced(weighed, "force: FILL_IN", "force: 22 N")), "");
 }
 
+// Nobody knows where the mass of this base lies. Above the axle it would fall over its ball, 0.3 m behind. In
+// the middle of three feet it lies 0.1 m behind, inside of them.
+TEST_F(DraftOfHabits, proposes_the_middle_of_the_feet_for_a_mass_of_unknown_place) {
+  const std::string ball =
+      "<link name='ball'><collision><geometry><sphere radius='.02'/></geometry></collision></link><joint "
+      "name='ball_joint' type='fixed'><parent link='chassis'/><child link='ball'/><origin xyz='-.3 0 "
+      "-.06'/></joint>";
+  const std::string bare =
+      std::regex_replace(two_wheels_and(ball), std::regex("<inertial>.*?</inertial>"), "");
+  const auto draft = this->draft(folder_.write("bare.urdf", bare));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("at: [-100 mm, 0 mm, 0 mm]"), std::string::npos) << draft->text;
+  ASSERT_EQ(draft->assumed.size(), 1U);
+  std::string filled = draft->text;
+  for (const auto& [open, value] : {std::pair{"chassis: \\{mass: FILL_IN", "chassis: {mass: 3 kg"},
+                                    {"mass: FILL_IN", "mass: 0.2 kg"},
+                                    {"force: FILL_IN", "force: 3 N"}})
+    filled = std::regex_replace(filled, std::regex(open), value);
+  EXPECT_EQ(said_of(filled).find("error"), std::string::npos) << said_of(filled);
+  EXPECT_NE(said_of(std::regex_replace(filled, std::regex(", at: [^}]*"), "")).find("E640"),
+            std::string::npos);
+}
+
 // 1 kg that lies e beside the axle of a wheel of 80 mm drives the base by e/80 mm of its weight. Of 22 kg
 // that is 1 % at 17.6 mm. A disc has its centre on the axle.
 TEST_F(DraftOfHabits, puts_the_centre_of_a_wheel_on_its_axle) {

@@ -100,6 +100,30 @@ TEST(TaskDraft, presses_with_the_same_share_of_the_weight) {
   EXPECT_NE(drafted("wall_align", fit).task.find("value: 20 N, range: [5 N, 40 N]"), std::string::npos);
 }
 
+// Motors of 23 N are those of half of the shipped mass at 1 m/s^2.
+TEST(TaskDraft, asks_no_more_than_the_motors_have) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  EXPECT_NE(drafted("feel_wall", fit).task.find("force: 41 N"), std::string::npos);  // 0.9 m/s^2 x 46 kg
+  fit.largest_force = 23.0;
+  EXPECT_NE(drafted("feel_wall", fit).task.find("force: 21 N"), std::string::npos);
+  EXPECT_NE(drafted("wall_align", fit).task.find("value: 10 N, range: [2.5 N, 20 N]"), std::string::npos);
+  fit.mass = 0.0;  // not known
+  EXPECT_NE(drafted("wall_align", fit).task.find("value: 10 N, range: [2.5 N, 20 N]"), std::string::npos);
+}
+
+// Half of 20 N times the lever of the corner that touches first, 18 deg askew at sqrt(0.1^2 + 0.3^2) m:
+// atan(0.1 / 0.3) = 18.43 deg. A start of 15 deg leaves 3.43 deg: 0.5 x 20 N x 0.3162 m x sin(3.43 deg).
+TEST(TaskDraft, holds_a_narrow_front_with_less_than_the_wall_turns_it_with_at_first) {
+  BaseFit fit = base_fit(shipped("diff_base"));
+  fit.outline = {{0.3, -0.1}, {0.3, 0.1}, {-0.3, 0.1}, {-0.3, -0.1}};
+  fit.axle = 0.0;
+  fit.front_lever = 0.1;
+  constexpr double degree = std::numbers::pi / 180.0;
+  ASSERT_NEAR(*start_askew(fit), 15.0 * degree, 1e-12);
+  EXPECT_NE(drafted("wall_align", fit).task.find("force: +-0.19 N m"), std::string::npos)
+      << drafted("wall_align", fit).task;
+}
+
 // The least push, 5 N, turns the base about the corner 0.296 m beside the middle. Its moment is twice the one
 // that holds the heading on the way.
 TEST(TaskDraft, holds_the_heading_by_half_of_what_the_wall_turns_it_with) {
@@ -139,6 +163,30 @@ TEST(RestingYaw, of_a_polygon_is_that_of_its_nearest_side) {
   const std::vector<Eigen::Vector2d> chamfered = {{0.4, -0.2}, {0.4, 0.2},   {0.35, 0.3},
                                                   {-0.4, 0.3}, {-0.4, -0.3}, {0.35, -0.3}};
   EXPECT_NEAR(*resting_yaw(chamfered, 20.0 * degree), 0.0, 1e-6);
+}
+
+// A corner at the angle b = atan(0.2 / 0.3) = 33.7 deg. From the yaw t it slides along a wall whose friction
+// is less than tan(b - t), and is held by more.
+TEST(RestingYaw, is_where_it_comes_if_the_friction_of_the_wall_holds_the_corner) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const std::vector<Eigen::Vector2d> front = {{0.3, -0.2}, {0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}};
+  const double corner = std::atan(0.2 / 0.3);
+  for (const double yaw : {-25.0 * degree, -8.0 * degree, 3.0 * degree, 20.0 * degree}) {
+    const double holds = std::tan(corner - std::abs(yaw));
+    EXPECT_NEAR(*resting_yaw(front, yaw, {.friction = 0.99 * holds}), 0.0, 1e-9) << yaw;
+    EXPECT_NEAR(*resting_yaw(front, yaw, {.friction = 1.01 * holds}), yaw, 1e-12) << yaw;
+  }
+}
+
+// The corner is sqrt(0.13) m out: its lever from the yaw t is sqrt(0.13) m x sin(b - t).
+TEST(RestingYaw, is_where_it_comes_if_a_row_holds_the_heading_harder_than_the_wall_turns_it) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const std::vector<Eigen::Vector2d> front = {{0.3, -0.2}, {0.3, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}};
+  for (const double yaw : {-25.0 * degree, 20.0 * degree}) {
+    const double lever = std::sqrt(0.13) * std::sin(std::atan(0.2 / 0.3) - std::abs(yaw));
+    EXPECT_NEAR(*resting_yaw(front, yaw, {.lever = 0.99 * lever}), 0.0, 1e-9) << yaw;
+    EXPECT_NEAR(*resting_yaw(front, yaw, {.lever = 1.01 * lever}), yaw, 1e-12) << yaw;
+  }
 }
 
 // The same base with its arm stretched ahead and with its arm folded.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 #include <sstream>
 
 #include "cli_plan_fixture.hpp"
@@ -244,6 +245,36 @@ TEST_F(CliPlan, init_overwrites_nothing_and_updates_what_it_is_told_to) {
   EXPECT_EQ(updated.code, 0) << updated.out;
   EXPECT_EQ(read(folder_ / "robots/mine.yaml"), robot);
   EXPECT_EQ(read(folder_ / "robots/mine_obstacle_scene.yaml"), scene + "# mine\n");
+}
+
+// A URDF without masses and torques: the shipped 41 N are more than these motors make, 2 x 0.2 N m / 0.08 m =
+// 5 N. Filled in, 0.9 m/s^2 x 3 kg = 2.7 N are asked. What its owner changed stays.
+TEST_F(CliPlan, update_fits_the_task_to_the_masses_and_torques_that_were_filled_in) {
+  std::string urdf = loaded_base("20", "0 0 .1");
+  urdf = std::regex_replace(urdf, std::regex("<inertial>.*?</inertial>|<limit[^>]*>"), "");
+  write("loaded.urdf", urdf);
+  const Result made = zwang("robot init loaded.urdf --task feel_wall");
+  ASSERT_EQ(made.code, 0) << made.out;
+  const std::string fit = "zwang robot init loaded.urdf --update loaded.yaml --task feel_wall";
+  EXPECT_NE(made.out.find(fit), std::string::npos) << made.out;
+  const std::string first = read(folder_ / "loaded_feel_wall.yaml");
+  EXPECT_NE(first.find("force: 41"), std::string::npos) << first;
+  std::string text = read(folder_ / "loaded.yaml");
+  for (const auto& [open, value] : {std::pair{"effort: FILL_IN", "effort: 0.2 N m"},
+                                    {"base_link: \\{mass: FILL_IN", "base_link: {mass: 2.6 kg"},
+                                    {"mass: FILL_IN", "mass: 0.2 kg"},
+                                    {"force: FILL_IN", "force: 3 N"}})
+    text = std::regex_replace(text, std::regex(open), value);
+  write("loaded.yaml", text);
+  const Result updated = zwang(fit.substr(6));
+  EXPECT_EQ(updated.code, 0) << updated.out;
+  EXPECT_NE(updated.out.find("fitted to what you filled in"), std::string::npos) << updated.out << text;
+  const std::string fitted = read(folder_ / "loaded_feel_wall.yaml");
+  EXPECT_NE(fitted.find("force: 2.7 N"), std::string::npos) << fitted;
+  EXPECT_EQ(zwang("validate --deny warnings loaded_feel_wall.yaml").code, 0);
+  write("loaded_feel_wall.yaml", first + "# mine\n");
+  EXPECT_EQ(zwang(fit.substr(6)).code, 0);
+  EXPECT_EQ(read(folder_ / "loaded_feel_wall.yaml"), first + "# mine\n");
 }
 
 // The robot file may not read it (E109) before a folder above both is marked: that is the first of what to

@@ -4,8 +4,11 @@
 
 #include <cstring>
 #include <limits>
+#include <random>
+#include <regex>
 #include <stdexcept>
 
+#include "plant/mjcf_text.hpp"
 #include "plant_robots.hpp"
 
 namespace zwang::runtime {
@@ -120,6 +123,27 @@ TEST(PlantFaults, RefusesWhatItCannotSimulateAndSaysWhy) {
   EXPECT_NE(refusal(bare).find("footprint"), std::string::npos);
 
   EXPECT_NE(refusal(build_base({}, {})).find("wheels"), std::string::npos);
+}
+
+// A plate has A + B = C about its principal axes. However it lies in its link, the text keeps A + B >= C, to
+// the last digit: MuJoCo refuses less.
+TEST(PlantFaults, FlatBodiesStartHoweverTheyLie) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const std::regex numbers("diaginertia=\"([^ ]+) ([^ ]+) ([^\"]+)\"");
+  for (int i = 0; i < 200; ++i) {
+    const double a = 1.1 + any(random), b = 1.1 + any(random);
+    const Matrix3 axes = Eigen::Quaterniond(any(random), any(random), any(random), any(random))
+                             .normalized()
+                             .toRotationMatrix();
+    const Vector3 com(any(random), any(random), any(random));
+    const Matrix3 plate = axes * Vector3(a, b, a + b).asDiagonal() * axes.transpose();
+    const std::string text = mjcf::inertial(RigidInertia::from_com(2.0, com, plate));
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(text, found, numbers)) << text;
+    EXPECT_GE(std::stod(found[1]) + std::stod(found[2]), std::stod(found[3])) << text;
+    EXPECT_NEAR(std::stod(found[3]), a + b, 1e-9) << text;
+  }
 }
 
 }  // namespace

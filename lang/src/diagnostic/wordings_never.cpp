@@ -338,27 +338,6 @@ Diagnostic stops_too_late(const Span& span, const LateGuard& g, const std::strin
                              (limit.empty() ? "the speed" : ticked(limit)) + " allows that speed");
 }
 
-Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
-                         const Span& exit) {
-  const std::string why = floor > 0.0 ? "a wall turns this base with " + figure(wall, "N m") +
-                                            ", and it is held with " + figure(floor, "N m")
-                                      : "the wheels hold the heading of this base, and no wall turns it";
-  const std::string help = "drive `rz` to a measured angle, or take a base that a wall can turn";
-  if (!exit.exists()) return warning("W621", span, "`" + axis + "` is free, but " + why, help);
-  return with_related(error("E621", span, "`" + axis + "` cannot tell square from stuck: " + why, help), exit,
-                      "this is true of a base that is stuck, too");
-}
-
-Diagnostic rests_askew(const Span& span, const std::string& axis, double askew, const Span& exit) {
-  return with_related(
-      error("E621", span,
-            "`" + axis +
-                "` cannot tell square from stuck: this outline is round ahead, and rests on a wall " +
-                figure(askew * 180.0 / std::numbers::pi, "deg") + " askew",
-            "drive `rz` to a measured angle, or take a base that is flat ahead"),
-      exit, "this is true of a base that rests askew, too");
-}
-
 Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,
                            const std::string& link, const std::string& base) {
   return warning("W643", span,

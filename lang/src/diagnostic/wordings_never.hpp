@@ -125,12 +125,6 @@ struct LateGuard {
 Diagnostic stops_too_late(const Span& span, const LateGuard& guard, const std::string& limit,
                           const Span& limit_span);
 
-/// `floor` 0: the wheels hold the heading. [N m]. `exit`: that asks for it; none: W621.
-Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
-                         const Span& exit);
-/// `askew` [rad]: as far as that the outline rests on a wall.
-Diagnostic rests_askew(const Span& span, const std::string& axis, double askew, const Span& exit);
-
 /// Of driven wheels that swivel by themselves.
 Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven);
 /// `left` of `all` freedoms of the base have no row beside the feature's.

@@ -66,7 +66,6 @@ struct Asked {
   const ExitConditions& conditions;
   const AllTasks& all;
   std::vector<int> held_steerings;
-  double floor_friction;
 };
 
 /// Questions about the file as it is written, before any axis is taken out of the plan. No guesses on top of
@@ -83,12 +82,13 @@ void ask_exits_of_task(const CheckContext& context, std::size_t index, const Pla
 void ask_task(const CheckContext& context, std::size_t index, const Asked& asked, Probe& probe,
               Remarks& remarks) {
   PlannedTask plan = asked.all.plans[index];
+  const bool is_start = plan.task->name.text == context.file.start.text;
   ask_exits_of_task(context, index, plan, asked, probe, remarks);
   ask_reach(plan, probe, remarks);
   ask_travel(plan, *context.robot, asked.scene, remarks);
   ask_steering(context, plan, asked.held_steerings, probe, remarks);
   ask_hopping(context, plan, asked.conditions, asked.all, probe, remarks);
-  ask_square(plan, asked.held_steerings, asked.floor_friction, probe, remarks);
+  ask_square(plan, asked.held_steerings, asked.scene, is_start, probe, remarks);
   ask_turned_slowly(context, plan, asked.conditions.of_tasks[index], probe, remarks);
   ask_freedoms(plan, probe, remarks);
   ask_askew(plan, probe, remarks);
@@ -117,7 +117,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   if (!context.with_notes) return;
   ask_trailing(context, plan, remarks);
   ask_heading(context, plan, probe, remarks);
-  ask_hit(plan, asked.scene, plan.task->name.text == context.file.start.text, probe, remarks);
+  ask_hit(plan, asked.scene, is_start, probe, remarks);
   ask_force_budget(plan, probe, remarks);
 }
 
@@ -134,8 +134,7 @@ void check_physics(CheckContext& context, const std::optional<Scene>& scene, con
     // To ask each pair of tasks whether a way leads from one to the other takes too long in a large file.
     constexpr std::size_t most_asked_alone = 32;
     if (all.plans.size() > most_asked_alone) all.any = driven_by_any(all.plans, probe);
-    const Asked asked{scene, conditions, all, held_steerings(context, context.robot->model),
-                      scene.value_or(Scene{}).floor_friction};
+    const Asked asked{scene, conditions, all, held_steerings(context, context.robot->model)};
     if (!context.diagnostics.has_errors())
       ask_exits(context, plan_always(context), context.file.always_exits, conditions.of_always, all, probe,
                 remarks);

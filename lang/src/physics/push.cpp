@@ -28,17 +28,30 @@ Push push_of(const PlannedTask& plan, Probe& probe) {
   return push;
 }
 
-std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe) {
+namespace {
+
+/// Of the push in the base. [rad]
+double heading_of(const Push& push, Probe& probe) {
   const bool is_own = push.axis->in.body == 0;  // else the base may head to it anyhow: as at the start
   const solver::Vector3 along =
       is_own ? solver::Vector3(push.axis->in.pose.rotation.col(static_cast<int>(push.axis->axis)))
              : probe.direction(*push.axis);
   const bool pulls = push.axis->target.value_or(0.0) < 0.0;
-  const double heading = std::atan2(pulls ? -along.y() : along.y(), pulls ? -along.x() : along.x());
+  return std::atan2(pulls ? -along.y() : along.y(), pulls ? -along.x() : along.x());
+}
+
+}  // namespace
+
+Eigen::Vector2d along_push(const solver::Vector3& place, const Push& push, Probe& probe) {
+  const double heading = heading_of(push, probe);
   const Eigen::Vector2d axle(axle_ahead(probe.robot().model, heading), 0.0);
+  return Eigen::Rotation2Dd(-heading) * place.head<2>() - axle;
+}
+
+std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe) {
   std::vector<Eigen::Vector2d> outline;
   for (const solver::Vector3& corner : probe.robot().footprint)
-    outline.emplace_back(Eigen::Rotation2Dd(-heading) * corner.head<2>() - axle);
+    outline.push_back(along_push(corner, push, probe));
   return outline;
 }
 

@@ -19,6 +19,8 @@ Push push_of(const PlannedTask& plan, Probe& probe);
 /// The footprint's corners about the axle, where wheels hold the base sideways, else about the base's origin.
 /// They are turned so that the push goes along +x. [m]
 std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe);
+/// A place in the base, likewise. [m]
+Eigen::Vector2d along_push(const solver::Vector3& place, const Push& push, Probe& probe);
 
 /// Beside the line of the push through the base's origin, the farthest corner of the footprint. [m]
 double longest_lever(const Push& push, Probe& probe);

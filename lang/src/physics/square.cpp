@@ -2,7 +2,7 @@
 //
 //   held      the wheels hold the heading as they are steered, and nothing turns the steering
 //   scrubbed  mu g sum m_i |x_i - x| > F b
-//   round     the outline rests on another edge than the one ahead
+//   askew     the outline rests on another edge than the one ahead, or stays as it came: resting.cpp
 //
 // The right side is the moment of the wall: the push F at a corner of the footprint, b beside the line of the
 // push. The left side holds against it. It is the friction of wheels that slide sideways, each with its share
@@ -12,12 +12,11 @@
 // A heading that a row keeps still within a force range is turned, too, once the wall is stronger than both.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "diagnostic/wordings_never.hpp"
+#include "diagnostic/wordings_square.hpp"
 #include "physics/push.hpp"
 #include "physics/questions.hpp"
-#include "zwang/lang/task_draft.hpp"
+#include "physics/resting.hpp"
 
 namespace zwang::lang {
 
@@ -63,19 +62,9 @@ std::optional<double> holds_back(const PlannedAxis& axis) {
   return std::max(range->high, -range->low);
 }
 
-/// How far from square the outline rests on a wall that it comes to askew. [rad]
-double rests_askew(const Push& push, Probe& probe) {
-  constexpr double come_askew = 20.0 * std::numbers::pi / 180.0;
-  const std::vector<Eigen::Vector2d> outline = outline_along(push, probe);
-  double most = 0.0;
-  for (const double yaw : {come_askew, -come_askew})
-    most = std::max(most, std::abs(resting_yaw(outline, yaw).value_or(come_askew)));
-  return most;
-}
-
 void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
-                 const std::vector<int>& held_steerings, double floor_friction, Probe& probe,
-                 Remarks& remarks) {
+                 const std::vector<int>& held_steerings, const std::optional<Scene>& scene, bool is_start,
+                 Probe& probe, Remarks& remarks) {
   const bool is_heading = axis.move.body == 0 && axis.is_placed && !axis.is_feature() && axis.turns() &&
                           !probe.is_out_of_plane(axis);
   const Push push = is_heading ? push_of(plan, probe) : Push{};
@@ -83,12 +72,12 @@ void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
   if (figures == nullptr) return;
   const bool is_held = std::isinf(figures->mass) && (figures->is_held || !held_steerings.empty());
   const double wall = push.force * longest_lever(push, probe);
-  const double floor = scrub(probe.robot(), floor_friction) + own;
+  const double floor = scrub(probe.robot(), scene.value_or(Scene{}).floor_friction) + own;
   const std::optional<Span> exit = asked_by(*plan.task, axis);
   if (!is_held && floor <= wall) {
-    const double askew = rests_askew(push, probe);
-    if (exit && own == 0.0 && askew > round_ahead)
-      remarks.add(wording::rests_askew(axis.text->name.span, axis.path, askew, *exit));
+    if (exit)
+      ask_rest(axis, {push, floor, is_start ? wall_ahead(scene, push, probe) : std::nullopt}, *exit, probe,
+               remarks);
     return;
   }
   if ((is_held || own > 0.0) && !exit) return;  // W609, or a row that is meant to hold
@@ -98,13 +87,13 @@ void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
 
 }  // namespace
 
-void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings, double floor_friction,
-                Probe& probe, Remarks& remarks) {
+void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings,
+                const std::optional<Scene>& scene, bool is_start, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.free)
-    ask_heading(plan, axis, 0.0, held_steerings, floor_friction, probe, remarks);
+    ask_heading(plan, axis, 0.0, held_steerings, scene, is_start, probe, remarks);
   for (const PlannedAxis& axis : plan.axes) {
     if (const std::optional<double> own = holds_back(axis))
-      ask_heading(plan, axis, *own, held_steerings, floor_friction, probe, remarks);
+      ask_heading(plan, axis, *own, held_steerings, scene, is_start, probe, remarks);
   }
 }
 

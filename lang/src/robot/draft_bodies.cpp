@@ -6,6 +6,7 @@
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/adapt_urdf.hpp"
 #include "robot/draft_entries.hpp"
+#include "robot/placed_urdf.hpp"
 #include "robot/possible_bodies.hpp"
 #include "robot/possible_inertia.hpp"
 
@@ -49,6 +50,9 @@ class DraftBodies {
       if (bare && body.parts.front() == found_.base) continue;  // possible with that mass
       for (const std::string& part : body.parts) add(part);
     }
+    for (DraftBody& body : bodies_) {
+      if (body.link == found_.base && body.lacks_mass && body.beside == 0.0) body.at = middle_of_feet();
+    }
     return std::move(bodies_);
   }
 
@@ -66,7 +70,24 @@ class DraftBodies {
                                       [&](const DraftWheel& wheel) { return wheel.link == link; });
     const UrdfLink& drawn = *urdf_.find_link(link);
     bodies_.push_back({link, !(drawn.inertia.mass > 0.0), is_wheel ? 0.0 : ball_radius(drawn),
-                       link == found_.base ? std::optional(0.0) : std::nullopt});
+                       link == found_.base ? std::optional(0.0) : std::nullopt, std::nullopt});
+  }
+
+  /// Where a mass of unknown place is carried best: in the middle of what stands on the ground, at the height
+  /// of the axles. Above an axle with two wheels the base would fall over. nullopt: it is the link's origin.
+  std::optional<solver::Vector3> middle_of_feet() const {
+    const PlacedUrdf placed(urdf_, found_.base);
+    std::vector<solver::Vector3> feet;
+    for (const DraftWheel& wheel : wheels_) feet.emplace_back(wheel.at[0], wheel.at[1], wheel.at[2]);
+    const double height = feet.empty() ? 0.0 : feet.front().z();
+    for (const std::string& support : found_.supports) feet.push_back(placed.pose_of(support).position);
+    solver::Vector3 middle = solver::Vector3::Zero();
+    for (const solver::Vector3& foot : feet) middle += foot / static_cast<double>(feet.size());
+    constexpr double nearly = 0.01;  // [m]
+    if (middle.head<2>().norm() < nearly) return std::nullopt;
+    constexpr double millimetre = 1e-3;
+    return solver::Vector3((Eigen::Vector3d(middle.x(), middle.y(), height) / millimetre).array().round()) *
+           millimetre;
   }
 
   double moment_about(const std::string& joint, const UrdfLink& link) const {
@@ -166,7 +187,9 @@ std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::stri
   std::string text =
       "\n# Links to which the URDF gives no inertia, or one that no body has: a wheel counts as a solid "
       "disc,\n"
-      "# another link as a solid ball. Without `mass` the URDF's, without `radius` the wheel's.\n"
+      "# another link as a solid ball. Without `mass` the URDF's, without `radius` the wheel's, without `at` "
+      "the\n"
+      "# URDF's centre of mass.\n"
       "inertias:\n";
   for (const DraftBody& body : bodies) {
     std::string keys;
@@ -174,6 +197,9 @@ std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::stri
     if (body.radius > 0.0)
       keys += (keys.empty() ? "" : ", ") + std::string("radius: ") +
               in_millimetres(std::ceil(body.radius * 1e3) / 1e3);
+    if (body.at)
+      keys += ", at: [" + in_millimetres(body.at->x()) + ", " + in_millimetres(body.at->y()) + ", " +
+              in_millimetres(body.at->z()) + "]";
     text += "  " + body.link + ": {" + keys + "}\n";
   }
   return text;

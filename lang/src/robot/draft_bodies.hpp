@@ -12,7 +12,8 @@ struct DraftBody {
   std::string link;
   bool lacks_mass = false;
   double radius = 0.0;  ///< [m] of a solid ball; 0: of a wheel, which counts as a disc of its own radius
-  std::optional<double> beside;  ///< [kg] of the base's body: all that is fixed to it
+  std::optional<double> beside;       ///< [kg] of the base's body: all that is fixed to it
+  std::optional<solver::Vector3> at;  ///< [m] proposed for the centre of its mass, in the link's axes
 };
 
 /// `open`: links behind moving joints without an inertia. `held`: joints that do not move. `outline`: of the

@@ -266,7 +266,18 @@ class Drafter {
     if (drop != drops_.end()) entry += ", drop: " + in_millimetres(drop->second);
     if (is_driven && drive_ == DriveKind::omni) entry += ", roller: 90 deg";
     if (slides_sideways) entry += ", holds: [rolling]";
-    return entry + "}\n";
+    return entry + "}" + height_note(wheel, is_driven, filling) + "\n";
+  }
+
+  /// Of a radius that nobody knows: the axles' heights tell how the radii differ.
+  std::string height_note(const DraftWheel& wheel, bool is_driven, const Filling& filling) const {
+    if (wheel.radius || (is_driven && share_radius()) || filling.radius != fill_in) return "";
+    double lowest = wheel.at[2];
+    for (const std::vector<DraftWheel>* wheels : {&found_.wheels, &found_.idle, &found_.casters})
+      for (const DraftWheel& other : *wheels) lowest = std::min(lowest, other.at[2]);
+    if (wheel.at[2] - lowest < least_wheel_lift) return "";
+    return "  # from the axle to the ground, measured; drawn " + in_millimetres(wheel.at[2] - lowest) +
+           " higher than the lowest axle";
   }
 
   std::string text(const Filling& filling) const {

@@ -180,10 +180,13 @@ class Fitting {
   }
 
   /// F = F_shipped m / m_shipped for a base lighter than the shipped one: as much of its weight, which the
-  /// floor holds. A heavier one keeps the shipped force.
+  /// floor holds. A heavier one keeps the shipped force. A base that its motors F_max accelerate with less
+  /// than a = 1 m/s^2 counts as one of m = F_max / a: the shipped 0.9 m/s^2 x m is 0.9 F_max then.
   double force_of(double shipped) const {
-    return fit_.mass <= 0.0 || fit_.mass >= shipped_mass ? shipped
-                                                         : rounded(shipped * fit_.mass / shipped_mass);
+    constexpr double a = 1.0;  // [m/s^2]
+    double mass = fit_.mass > 0.0 ? std::min(fit_.mass, shipped_mass) : shipped_mass;
+    if (fit_.largest_force > 0.0) mass = std::min(mass, fit_.largest_force / a);
+    return mass == shipped_mass ? shipped : rounded(shipped * mass / shipped_mass);
   }
   std::string force(double shipped) const { return wording::figure(force_of(shipped), "N"); }
   std::string range_of(double value, double low, double high) const {
@@ -208,8 +211,18 @@ class Fitting {
     }
   }
 
-  /// [N m] Half of the moment with which the least push squares the base up.
-  double gentle_moment() const { return rounded(0.5 * force_of(5.0) * lever()); }
+  /// [N m] Half of the moment with which the least push squares the base up at last, and the proposed one at
+  /// first: a narrow front has little lever while it is askew.
+  double gentle_moment() const {
+    const Eigen::Vector2d axle(fit_.axle, 0.0);
+    Eigen::Vector2d first{0.0, 0.0};
+    for (const Eigen::Vector2d& corner : fit_.outline) {
+      const Eigen::Vector2d at = Eigen::Rotation2Dd(askew_) * (corner - axle);
+      if (at.x() > first.x()) first = at;
+    }
+    const double at_first = fit_.outline_is_known ? force_of(20.0) * std::abs(first.y()) : solver::infinity;
+    return rounded(0.5 * std::min(force_of(5.0) * lever(), at_first));
+  }
 
   /// Casters that turn over weigh along x, and hardly across. The row that holds the heading makes up for a
   /// turn that the push would bring, and that the wall prevents. Its moment is less than the wall's.

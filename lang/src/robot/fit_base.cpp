@@ -103,6 +103,7 @@ void add_masses(const Robot& robot, BaseFit& fit) {
   const auto ahead = goes_along_y ? y_axis : x_axis;
   fit.effective_mass = std::max(known(analysis.axes[ahead].effective_mass),
                                 known(with_swivels_across(robot).axes[ahead].effective_mass));
+  fit.largest_force = analysis.axes[ahead].largest_force;
   fit.effective_inertia = known(analysis.axes[yaw_axis].effective_mass);
   const std::optional<Footing> footing = footing_of(robot);
   if (footing) fit.centre = Eigen::Rotation2Dd(-fit.heading) * footing->centre.head<2>();
@@ -190,6 +191,8 @@ BaseFit base_fit(const RobotDraft& draft) {
   if (draft.assumed.empty()) return fit;
   const Robot& assumed = draft.assumed.front().robot;
   add_masses(assumed, fit);
+  const auto has_effort = [](const DraftWheel& wheel) { return wheel.effort.has_value(); };
+  if (!std::all_of(draft.wheels.begin(), draft.wheels.end(), has_effort)) fit.largest_force = 0.0;
   if (fit.freedoms == Freedoms::two) fit.axle = axle_ahead(assumed.model, fit.heading);
   if (fit.outline_is_known) add_arm(assumed, fit);
   return fit;
@@ -209,34 +212,6 @@ BaseFit base_fit(const Robot& robot) {
   if (fit.freedoms == Freedoms::two) fit.axle = axle_ahead(robot.model, fit.heading);
   add_masses(robot, fit);
   return fit;
-}
-
-// The wall touches the foremost corner and presses along -x. The wheels push and hold through the outline's
-// origin. The wall's moment about it has the sign of the corner's y in the world.
-// The base turns so until an edge lies on the wall whose ends lie on both sides of the origin: there it
-// rests.
-std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw) {
-  const std::size_t count = outline.size();
-  const auto turned = [&](std::size_t i, double by) -> Eigen::Vector2d {
-    return Eigen::Rotation2Dd(by) * outline[i % count];
-  };
-  double angle = yaw;
-  for (std::size_t step = 0; step < count && std::abs(angle - yaw) < std::numbers::pi / 2.0; ++step) {
-    std::size_t foremost = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-      if (turned(i, angle).x() > turned(foremost, angle).x()) foremost = i;
-    }
-    const double side = turned(foremost, angle).y();
-    // To the left of the origin the base turns left, and its edge to the right comes to the wall; and vice
-    // versa.
-    const std::size_t next = side > 0.0 ? foremost + count - 1 : foremost + 1;
-    const Eigen::Vector2d edge = turned(next, angle) - turned(foremost, angle);
-    // By which the edge must turn to lie along the wall.
-    angle += side > 0.0 ? std::atan2(-edge.x(), -edge.y()) : -std::atan2(-edge.x(), edge.y());
-    if (turned(foremost, angle).y() * turned(next, angle).y() <= 0.0) return angle;
-    angle += side > 0.0 ? 1e-9 : -1e-9;  // off the edge, on to its other corner
-  }
-  return std::nullopt;
 }
 
 std::optional<double> start_askew(const BaseFit& fit) {

@@ -46,6 +46,11 @@ InertiaText parse_inertia(const Entry& entry, Diagnostics& diagnostics) {
     inertia.mass = parse_positive(*mass, dimension::mass, what + ", mass", false, diagnostics);
   if (const Node* radius = map.optional("radius"))
     inertia.radius = parse_positive(*radius, dimension::length, what + ", radius", false, diagnostics);
+  if (const Node* at = map.optional("at")) {
+    inertia.at = parse_vector(*at, dimension::length, 3, 3, what + ", at", diagnostics)
+                     .value_or(std::vector<double>{});
+    inertia.at_span = at->span;
+  }
   map.finish();
   return inertia;
 }
@@ -75,6 +80,7 @@ void apply_inertias(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics)
     if (!mass || !radius) continue;
     solver::Vector3 com =
         known > 0.0 ? solver::Vector3(link->inertia.first_moment / known) : solver::Vector3::Zero();
+    if (!text.at.empty()) com = {text.at[0], text.at[1], text.at[2]};
     if (wheel != nullptr) com = joint->joint.axis.dot(com) * joint->joint.axis;
     link->inertia = solver::RigidInertia::from_com(
         *mass, com, wheel != nullptr ? disc(*mass, *radius, joint->joint.axis) : ball(*mass, *radius));

@@ -41,6 +41,8 @@ struct InertiaText {
   Word link;
   std::optional<double> mass;    ///< [kg]; not given: the URDF's
   std::optional<double> radius;  ///< [m]; not given: the wheel's
+  std::vector<double> at;        ///< [m] its centre of mass, in the link's axes; empty: the URDF's
+  Span at_span{};
 };
 
 /// In the place of the URDF's <axis>.

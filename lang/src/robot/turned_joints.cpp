@@ -102,6 +102,29 @@ void keep_lowest(std::vector<const UrdfJoint*>& wheels, const PlacedUrdf& placed
   });
 }
 
+/// Where most wheels have another one across the base, a single one that stands higher is a cover or a
+/// sensor.
+void keep_pairs(std::vector<const UrdfJoint*>& wheels, const PlacedUrdf& placed) {
+  constexpr double same_place = 0.01;  // [m]
+  const auto has_partner = [&placed, all = wheels](const UrdfJoint* wheel) {
+    const solver::Vector3 at = placed.place_of(*wheel);
+    return std::any_of(all.begin(), all.end(), [&](const UrdfJoint* other) {
+      const solver::Vector3 across(at.x(), -at.y(), at.z());
+      return other != wheel && (placed.place_of(*other) - across).norm() < same_place;
+    });
+  };
+  const auto single = std::stable_partition(wheels.begin(), wheels.end(), has_partner);
+  if (single - wheels.begin() < 4) return;
+  double highest = -solver::infinity;
+  for (auto wheel = wheels.begin(); wheel != single; ++wheel)
+    highest = std::max(highest, placed.place_of(**wheel).z());
+  wheels.erase(std::remove_if(single, wheels.end(),
+                              [&](const UrdfJoint* wheel) {
+                                return placed.place_of(*wheel).z() > highest + same_place;
+                              }),
+               wheels.end());
+}
+
 /// The joints that are called wheels, and the swivels that are drawn above them.
 std::vector<std::string> wheels_to_turn(const Urdf& urdf, const FoundWheels& found) {
   const PlacedUrdf placed(urdf, found.base);
@@ -124,6 +147,7 @@ std::vector<std::string> wheels_to_turn(const Urdf& urdf, const FoundWheels& fou
   }
   if (wheels.size() < 2) return {};
   keep_lowest(wheels, placed);
+  keep_pairs(wheels, placed);
   for (const DraftWheel& turns : found.wheels) {
     const UrdfJoint* wheel = urdf.find_joint(turns.joint);
     for (const UrdfJoint* joint : joints_above(urdf, wheel->parent, found.base))

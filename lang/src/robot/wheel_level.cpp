@@ -31,13 +31,27 @@ solver::Pose pose_in_base(const solver::Model& model, int body, const Eigen::Vec
   return pose;
 }
 
+namespace {
+
+/// A plain wheel that does not steer.
+bool is_of_axle(const solver::Model& model, const solver::Wheel& wheel) {
+  return model.bodies()[static_cast<std::size_t>(wheel.body)].parent == 0 && !wheel.roller_angle &&
+         wheel.holds_sideways;
+}
+
+}  // namespace
+
+bool has_axle(const solver::Model& model) {
+  return std::any_of(model.wheels().begin(), model.wheels().end(),
+                     [&](const solver::Wheel& wheel) { return is_of_axle(model, wheel); });
+}
+
 double axle_ahead(const solver::Model& model, double heading) {
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   double sum = 0.0;
   int count = 0;
   for (const solver::Wheel& wheel : model.wheels()) {
-    const bool is_stiff = model.bodies()[static_cast<std::size_t>(wheel.body)].parent == 0;
-    if (!is_stiff || wheel.roller_angle || !wheel.holds_sideways) continue;
+    if (!is_of_axle(model, wheel)) continue;
     sum += ahead.dot(pose_in_base(model, wheel.body).position.head<2>());
     ++count;
   }

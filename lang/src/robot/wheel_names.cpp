@@ -12,7 +12,7 @@ namespace zwang::lang {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> wheels{"wheel", "roue", "rueda", "ruota", "reifen"};
+constexpr std::array<std::string_view, 6> wheels{"wheel", "whl", "roue", "rueda", "ruota", "reifen"};
 constexpr std::array<std::string_view, 12> casters{"caster",    "castor",   "lenkrolle",  "laufrolle",
                                                    "stuetzrad", "stützrad", "roulette",   "folle",
                                                    "loca",      "rotella",  "pivottante", "piroettante"};

@@ -248,11 +248,13 @@ class WheelSearch {
                     [](const UrdfJoint* wheel) { return is_called_caster(wheel->joint.name); });
     for (const UrdfJoint& joint : urdf_.joints) {
       const std::string& name = joint.joint.name;
-      const bool is_part_of_wheel = (!moves(joint) && is_called_wheel(joint.parent)) || is_on_a_wheel(joint);
+      const bool is_part_of_wheel =
+          (!moves(joint) && is_called_wheel(joint.parent) && !stands_between_wheels(joint.parent)) ||
+          is_on_a_wheel(joint);
       const bool is_named = is_called_wheel(name) || is_called_wheel(joint.child);
       if (is_part_of_wheel || !is_named || is_a_wheel(joint)) continue;
       const bool turns = joint.joint.type == solver::JointType::continuous;
-      if (turns || carries_a_wheel(joint)) continue;
+      if (turns || carries_a_wheel(joint) || stands_between_wheels(joint.child)) continue;
       if (are_all_casters ? !is_called_wheel(name) : !stands_beside_wheels(joint)) continue;
       const bool slides = joint.joint.type == solver::JointType::prismatic;
       (is_called_caster(name) ? casters : found_.stuck)
@@ -298,6 +300,21 @@ class WheelSearch {
   bool is_a_wheel(const UrdfJoint& joint) const {
     return std::find(candidates_.wheels.begin(), candidates_.wheels.end(), &joint) !=
            candidates_.wheels.end();
+  }
+
+  /// Carries links that are called wheels, to both sides of it: a `wheel_base` is none itself. A wheel's tyre
+  /// and hub stand where the wheel stands.
+  bool stands_between_wheels(const std::string& link) const {
+    std::vector<Eigen::Vector2d> sides;
+    for (const UrdfJoint& joint : urdf_.joints) {
+      if (joint.parent != link || !is_called_wheel(joint.child) || is_called_sensor(joint.child)) continue;
+      sides.push_back((placed_.pose_of(joint.child).position - placed_.pose_of(link).position).head<2>());
+    }
+    constexpr double apart = 1e-4;  // [m^2] 1 cm to either side
+    return std::any_of(sides.begin(), sides.end(), [&](const Eigen::Vector2d& one) {
+      return std::any_of(sides.begin(), sides.end(),
+                         [&](const Eigen::Vector2d& other) { return one.dot(other) < -apart; });
+    });
   }
 
   bool is_on_a_wheel(const UrdfJoint& joint) const {

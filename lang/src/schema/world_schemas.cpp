@@ -60,7 +60,8 @@ Json each_joint() {
 Json link_inertia() {
   return object("a solid disc of a wheel, else a solid ball",
                 {{"mass", reference("quantity", "default the URDF's")},
-                 {"radius", reference("quantity", "default the wheel's")}});
+                 {"radius", reference("quantity", "default the wheel's")},
+                 {"at", reference("vector", "the centre of mass, in the link's axes; default the URDF's")}});
 }
 
 Json drive() {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -53,9 +54,11 @@ inline std::string inertial(const solver::RigidInertia& inertia) {
   const Eigen::SelfAdjointEigenSolver<solver::Matrix3> principal(inertia.rotational_at_com());
   solver::Matrix3 axes = principal.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  // A flat body has A + B = C. Rounding makes C larger, and MuJoCo refuses that.
+  solver::Vector3 moments = principal.eigenvalues();
+  moments(2) = std::min(moments(2), moments(0) + moments(1));
   return "<inertial" + attribute("pos", list_of(com)) + attribute("mass", text_of(inertia.mass)) +
-         attribute("quat", quaternion_of(axes)) + attribute("diaginertia", list_of(principal.eigenvalues())) +
-         "/>\n";
+         attribute("quat", quaternion_of(axes)) + attribute("diaginertia", list_of(moments)) + "/>\n";
 }
 
 inline std::string sphere_geom(const std::string& name, const solver::Vector3& at, double radius) {

@@ -36,6 +36,7 @@ struct BaseFit {
   double arm_reach = 0.0;  ///< [m] from the base's origin to the farthest point of an arm beyond the outline
   double arm_ahead = 0.0;  ///< [m] in the base, the foremost of those points; 0: none is ahead
   double mass = 0.0;       ///< [kg]; 0: not known
+  double largest_force = 0.0;   ///< [N] of the motors along x; 0: not known
   double effective_mass = 0.0;  ///< [kg] that a force along x moves, wheels and rotors included; 0: not known
   double effective_inertia = 0.0;    ///< [kg m^2] of a turn, likewise
   Eigen::Vector2d centre{0.0, 0.0};  ///< [m] of the mass, in the axes of `base`
@@ -47,10 +48,15 @@ struct BaseFit {
 ZWANG_EXPORT BaseFit base_fit(const RobotDraft& draft);
 ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
+/// What keeps a base that a wall presses on from turning.
+struct WallGrip {
+  double friction = 0.0;  ///< of the wall, at a base that its wheels hold sideways
+  double lever = 0.0;     ///< [m] the moment that holds the heading, over the push
+};
 /// The yaw [rad] at which the outline comes to rest against a wall across x. The base is pushed to the wall
-/// from `yaw`, without friction, and turns about the outline's origin. No value: the base turns by more than
-/// 90 deg first.
-ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
+/// from `yaw`, and turns about the outline's origin. No value: the base turns by more than 90 deg first.
+ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw,
+                                               const WallGrip& grip = {});
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
 inline constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;

@@ -33,6 +33,8 @@ struct WheelLevel {
 /// steer. The axle holds a wall's side force, and the base turns about it. 0: no wheel holds the base
 /// sideways.
 ZWANG_EXPORT double axle_ahead(const solver::Model& model, double heading);
+/// Whether there is such an axle.
+ZWANG_EXPORT bool has_axle(const solver::Model& model);
 
 /// Of a model that has wheels.
 ZWANG_EXPORT WheelLevel wheel_level(const solver::Model& model);
