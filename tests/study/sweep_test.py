@@ -135,6 +135,18 @@ def main(program, specs):
     (folder / "scene.yaml").write_text(SCENE.replace("20 kg", "21 kg"))
     other = zwang("sweep", "study.yaml", "--out", "alone.db")
     expect(other.returncode == 2 and "--fresh" in other.stderr, f"results of other files: {other.stderr}")
+
+    # A file of a cell that has not run yet counts, too.
+    choice = STUDY.replace("draw:\n", "draw:\n  robot: {choice: [robots/kelo_base.yaml, robots/omni_base.yaml]}\n")
+    (folder / "choice.yaml").write_text(choice)
+    zwang("sweep", "choice.yaml", "--runs", "1", "-j", "1")
+    with sqlite3.connect(folder / "choice.db") as database:
+        first = database.execute("SELECT of_matrix FROM cells").fetchone()[0]
+    other_robot = folder / "robots" / ("omni_base.urdf" if "kelo" in first else "kelo_base.urdf")
+    other_robot.write_text(other_robot.read_text() + "<!-- another text -->\n")
+    other = zwang("sweep", "choice.yaml", "--runs", "2", "-j", "1")
+    expect(other.returncode == 2 and "--fresh" in other.stderr, f"results of another robot's file: {other.stderr}")
+
     expect(zwang("run", "study.yaml").returncode == 2, "a study runs without the number of a cell")
     expect(zwang("sweep", "study.yaml", "--shard", "3/2").returncode == 2, "a part beyond the last one")
     expect(zwang("sweep", "task.yaml").returncode == 1, "a task is swept")
