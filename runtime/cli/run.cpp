@@ -159,10 +159,9 @@ int run_program(const RunArguments& arguments, const lang::Program& program, lan
   const double processor_time = processor_time_so_far();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, diagnostics, settings, recorders);
-  static const std::vector<lang::Fault> none;
-  WatchedRun watched({plant, runner, recorders, program, reloads ? &*reloads : nullptr, view, interrupted,
-                      live, report, arguments.choice ? arguments.choice->faults : none},
-                     arguments.watchdog);
+  WatchedRun watched(
+      {plant, runner, recorders, program, reloads ? &*reloads : nullptr, view, interrupted, live, report},
+      arguments.watchdog);
   watched.run(arguments.choice ? arguments.choice->time_limit : std::numeric_limits<double>::infinity());
   if (reloads) {
     reloads->end();

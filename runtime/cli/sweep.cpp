@@ -3,8 +3,11 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "colour.hpp"
 #include "commit.hpp"
@@ -62,16 +65,25 @@ class Fingerprint {
   std::uint64_t hash_ = 0xcbf29ce484222325U;
 };
 
-/// The fingerprint of the program and of all texts of the study and its first cell.
+/// The fingerprint of the program and of all texts that cells read: with each robot and each scene.
 std::string fingerprint_of(const lang::Study& study) {
   Fingerprint print;
   print.add(ZWANG_VERSION);
   print.add(commit);
-  lang::Diagnostics of_study, of_task;
-  lang::StudyCell cell = lang::draw_cell(study, 0);
-  static_cast<void>(lang::load_run(study, cell, of_study, of_task));
-  for (const lang::Diagnostics* read : {study.read.get(), static_cast<const lang::Diagnostics*>(&of_task)}) {
-    for (const lang::Source& source : read->sources()) print.add(source.text);
+  const auto add = [&](const lang::Diagnostics& read) {
+    for (const lang::Source& source : read.sources()) print.add(source.text);
+  };
+  add(*study.read);
+  std::set<std::pair<fs::path, fs::path>> known;
+  const std::vector<lang::ScenarioCell>& cells = study.scenario.cells;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!known.emplace(cells[i].robot.value_or(""), cells[i].scene.value_or("")).second) continue;
+    std::vector<double> middle(study.draws.size() + 1, 0.5);
+    middle.back() = (static_cast<double>(i) + 0.5) / static_cast<double>(cells.size());
+    lang::Diagnostics of_study, of_task;
+    lang::StudyCell cell = lang::draw_cell(study, middle);
+    static_cast<void>(lang::load_run(study, cell, of_study, of_task));
+    add(of_task);
   }
   return print.text();
 }
@@ -82,26 +94,40 @@ std::string duration_text(double seconds) {
   return whole < 6000 ? std::to_string(whole / 60) + " min" : std::to_string(whole / 3600) + " h";
 }
 
-/// One line that is written over itself: cells done, their rate, the time left, and how many missed anything.
+/// One line that is written over itself: cells done, their rate, the time left, how many hold, and the
+/// expectation that most miss.
 class SweepProgress {
  public:
-  SweepProgress(std::size_t before, std::size_t wanted, bool shown)
-      : before_(before), wanted_(wanted), shown_(shown && stdout_can_be_written_over()) {}
+  /// `before`: the cells that an earlier run has done.
+  SweepProgress(const lang::Study& study, const std::vector<study::CellRecord>& before, std::size_t wanted,
+                bool shown)
+      : study_(study),
+        wanted_(wanted),
+        misses_(study.claims.size(), 0),
+        shown_(shown && stdout_can_be_written_over()) {
+    for (const study::CellRecord& record : before) count(record);
+    before_ = done_;
+  }
   void count(const study::CellRecord& record) {
     ++done_;
     missed_ += record.holds() ? 0U : 1U;
+    for (std::size_t i = 0; i < misses_.size(); ++i) misses_[i] += record.expectations[i].held ? 0U : 1U;
   }
   void show() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (!shown_ || seconds < next_) return;
     next_ = seconds + 0.5;
-    const double rate = static_cast<double>(done_) / seconds;
+    const double rate = static_cast<double>(done_ - before_) / seconds;
     std::ostringstream line;
     line.precision(3);
-    line << before_ + done_ << " of " << wanted_ << " cells, " << rate << " a second";
-    if (done_ > 0)
-      line << ", " << duration_text(static_cast<double>(wanted_ - before_ - done_) / rate) << " left";
+    line << done_ << " of " << wanted_ << " cells, " << rate << " a second";
+    if (done_ > before_)
+      line << ", " << duration_text(static_cast<double>(wanted_ - done_) / rate) << " left";
     line << ", " << done_ - missed_ << " of " << done_ << " hold";
+    const auto worst = std::ranges::max_element(misses_);
+    if (missed_ > 0 && worst != misses_.end())
+      line << "; " << *worst << " miss "
+           << study_.claims[static_cast<std::size_t>(worst - misses_.begin())].text;
     print_over(line.str());
   }
   void end() const {
@@ -109,7 +135,9 @@ class SweepProgress {
   }
 
  private:
-  std::size_t before_, wanted_, done_ = 0, missed_ = 0;
+  const lang::Study& study_;
+  std::size_t before_ = 0, wanted_, done_ = 0, missed_ = 0;
+  std::vector<std::size_t> misses_;  ///< by expectation
   bool shown_;
   Clock::time_point begin_ = Clock::now();
   double next_ = 0.5;
@@ -198,7 +226,7 @@ int sweep(const SweepArguments& arguments) {
   const std::vector<std::size_t> cells =
       arguments.merged.empty() ? cells_to_run(runs, shard, store.cells()) : std::vector<std::size_t>();
   const std::size_t wanted = (runs + shard.of - 1 - shard.first) / shard.of;
-  SweepProgress progress(wanted - std::min(wanted, cells.size()), wanted, arguments.format == Format::human);
+  SweepProgress progress(*study, store.records(runs), wanted, arguments.format == Format::human);
   calls.done = [&](const study::CellRecord& record) {
     store.put(record);
     progress.count(record);

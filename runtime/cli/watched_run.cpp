@@ -113,11 +113,8 @@ void WatchedRun::conclude(PlantStatus status, double elapsed) {
     report.because = "the plant " + report.outcome;
     report.why.reset();
   }
-  for (const lang::Fault& fault : parts_.program.scene->faults) {
-    if (fault.robot.empty() && fault.at < elapsed) report.faults.push_back({fault.at, fault.span});
-  }
-  for (const lang::Fault& fault : parts_.faults) {
-    if (fault.robot.empty() && fault.at < elapsed) report.faults.push_back({fault.at, {}});
+  for (const lang::Fault& fault : parts_.plant.faults()) {
+    if (fault.at < elapsed) report.faults.push_back({fault.at, fault.span});
   }
   const auto began = [](const FaultReport& a, const FaultReport& b) { return a.at < b.at; };
   std::stable_sort(report.faults.begin(), report.faults.end(), began);

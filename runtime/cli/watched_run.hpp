@@ -44,7 +44,6 @@ class WatchedRun final : public runtime::SimulatedRunHost {
     const std::atomic<bool>& interrupted;
     Live& live;
     RunReport& report;
-    const std::vector<lang::Fault>& faults;  ///< beside those of the scene
   };
   WatchedRun(const Parts& parts, bool with_watchdog);
 

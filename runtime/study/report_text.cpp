@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -133,16 +134,20 @@ std::string human_report(const lang::Study& study, const StudyReport& report, co
   for (const ClaimReport& claim : report.claims) describe_claim(claim, out);
   for (const GroupReport& group : report.groups)
     out << "  " << group.holds << "/" << group.runs << " cells hold with " << lang::printable(group.name)
-        << "\n";
+        << (group.margin ? ", margin " + percent_of(*group.margin, 1) + " at least" : std::string()) << "\n";
   if (report.worst.empty()) return out.str();
   out << "worst cells\n";
+  std::map<std::string, std::size_t> first_with;  // the reason, told once
   for (const WorstCell& cell : report.worst) {
     out << "  " << cell.record.cell << "  " << cell.record.outcome << "  "
         << (cell.margin ? "margin " + percent_of(*cell.margin, 1) : std::string("missed")) << "  "
         << lang::printable(study.claims[cell.claim].text) << "\n      " << drawn_text(study, cell.record)
         << "\n";
     const std::string& why = cell.record.why.empty() ? cell.record.because : cell.record.why;
-    if (!why.empty()) out << "      why: " << lang::printable(why) << "\n";
+    const auto told = first_with.emplace(why, cell.record.cell);
+    if (!why.empty())
+      out << "      why: "
+          << (told.second ? lang::printable(why) : "as cell " + std::to_string(told.first->second)) << "\n";
   }
   out << "again: " << command << report.worst.front().record.cell << " --report\n";
   return out.str();
@@ -153,6 +158,9 @@ std::string json_report(const lang::Study& study, const StudyReport& report) {
   for (const ClaimReport& claim : report.claims) claims.push_back(json_of(claim));
   for (const GroupReport& group : report.groups)
     groups.push_back({{"name", group.name}, {"hold", group.holds}, {"runs", group.runs}});
+  for (std::size_t i = 0; i < report.groups.size(); ++i) {
+    if (report.groups[i].margin) groups[i]["margin"] = *report.groups[i].margin;
+  }
   for (const WorstCell& cell : report.worst) {
     ordered_json drawn = ordered_json::object();
     for (std::size_t i = 0; i < study.draws.size(); ++i) drawn[study.draws[i].name] = cell.record.drawn[i];

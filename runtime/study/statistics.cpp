@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace zwang::study {
 
@@ -107,13 +109,28 @@ double quantile_of(const std::vector<double>& sorted, double p) {
 }
 
 std::optional<double> rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
-  const std::vector<double> a = ranks(x), b = ranks(y);
-  const double mean = 0.5 * (static_cast<double>(a.size()) - 1.0);
+  return rank_correlation_within(x, y, std::vector<std::size_t>(x.size(), 0));
+}
+
+std::optional<double> rank_correlation_within(const std::vector<double>& x, const std::vector<double>& y,
+                                              const std::vector<std::size_t>& group) {
+  std::map<std::size_t, std::pair<std::vector<double>, std::vector<double>>> groups;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    groups[group[i]].first.push_back(x[i]);
+    groups[group[i]].second.push_back(y[i]);
+  }
   double ab = 0.0, aa = 0.0, bb = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (a[i] - mean) * (b[i] - mean);
-    aa += (a[i] - mean) * (a[i] - mean);
-    bb += (b[i] - mean) * (b[i] - mean);
+  for (const auto& [number, values] : groups) {
+    const std::vector<double> a = ranks(values.first), b = ranks(values.second);
+    const double count = static_cast<double>(a.size());
+    const double mean = 0.5 * (count - 1.0);
+    // As shares of the group: else a group of twice as many cells counts eight times as much.
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double da = (a[i] - mean) / count, db = (b[i] - mean) / count;
+      ab += da * db;
+      aa += da * da;
+      bb += db * db;
+    }
   }
   if (!(aa > 0.0) || !(bb > 0.0)) return std::nullopt;
   return ab / std::sqrt(aa * bb);

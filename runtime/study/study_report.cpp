@@ -9,18 +9,22 @@ namespace zwang::study {
 namespace {
 
 ClaimReport report_of_claim(const lang::Study& study, std::size_t number,
-                            const std::vector<CellRecord>& records) {
+                            const std::vector<CellRecord>& records,
+                            const std::map<std::string, std::size_t>& group_of) {
   ClaimReport report;
   report.claim = study.claims[number];
   report.runs = records.size();
   std::vector<double> margins, misses;
+  std::vector<std::size_t> groups, groups_of_margins;  // the drawn cell of the scenario
   std::vector<const CellRecord*> with_margin;
   for (const CellRecord& record : records) {
     const ExpectationRecord& one = record.expectations[number];
     report.held += one.held ? 1U : 0U;
     misses.push_back(one.held ? 0.0 : 1.0);
+    groups.push_back(group_of.at(record.of_matrix));
     if (!one.margin) continue;
     margins.push_back(*one.margin);
+    groups_of_margins.push_back(groups.back());
     with_margin.push_back(&record);
   }
   const double confidence = report.claim.confidence;
@@ -30,8 +34,9 @@ ClaimReport report_of_claim(const lang::Study& study, std::size_t number,
     std::vector<double> of_all, of_margins;
     for (const CellRecord& record : records) of_all.push_back(record.drawn[i]);
     for (const CellRecord* record : with_margin) of_margins.push_back(record->drawn[i]);
-    report.correlations.push_back(
-        {study.draws[i].name, rank_correlation(of_margins, margins), rank_correlation(of_all, misses)});
+    report.correlations.push_back({study.draws[i].name,
+                                   rank_correlation_within(of_margins, margins, groups_of_margins),
+                                   rank_correlation_within(of_all, misses, groups)});
   }
   if (margins.empty()) return report;
   std::sort(margins.begin(), margins.end());
@@ -83,9 +88,13 @@ StudyReport report_of(const lang::Study& study, std::size_t wanted, const std::v
     ++group.runs;
     group.holds += record.holds() ? 1U : 0U;
     report.worst.push_back(worst_of(record));
+    const std::optional<double>& margin = report.worst.back().margin;
+    if (margin) group.margin = std::min(group.margin.value_or(*margin), *margin);
   }
+  std::map<std::string, std::size_t> group_of;
+  for (const auto& [name, group] : groups) group_of.emplace(name, group_of.size());
   for (std::size_t i = 0; i < study.claims.size(); ++i)
-    report.claims.push_back(report_of_claim(study, i, records));
+    report.claims.push_back(report_of_claim(study, i, records, group_of));
   if (study.scenario.cells.size() > 1) {
     for (const auto& [name, group] : groups) report.groups.push_back(group);
   }

@@ -13,7 +13,8 @@
 
 namespace zwang::study {
 
-/// A draw that goes with what an expectation comes to: Spearman's rank correlation.
+/// A draw that goes with what an expectation comes to: Spearman's rank correlation, among the cells that drew
+/// the same robot, scene and faults.
 struct Correlation {
   std::string draw;
   std::optional<double> with_margin, with_misses;
@@ -35,6 +36,7 @@ struct ClaimReport {
 struct GroupReport {
   std::string name;
   std::size_t holds = 0, runs = 0;
+  std::optional<double> margin;  ///< the least of all expectations
 };
 
 struct WorstCell {

@@ -42,7 +42,7 @@ class Wheels {
       told_(wheel.body - 1) = rim.force * wheel.radius;
       rates_(wheel.body - 1) = rim.speed / wheel.radius;
     }
-    contact_.follow(motions_, Eigen::VectorXd::Constant(1, force), power);
+    contact_.follow(motions_, Eigen::VectorXd::Constant(1, force), power, 0.0);
     return watch_.look(power, told_, rates_, contact_);
   }
   int first() const { return robot_.model.wheels()[0].body - 1; }

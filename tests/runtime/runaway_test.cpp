@@ -53,7 +53,7 @@ class OneMass {
       outside(0) = std::sqrt(mass) * (a - told(0) / mass);
       if (!is_due) continue;
       const double v = watch.rates()(0);
-      contact.follow(motions, outside, outside(0) * std::sqrt(mass) * v);
+      contact.follow(motions, outside, outside(0) * std::sqrt(mass) * v, 0.5 * mass * v * v);
       if (watch.look(set_, 0.5 * mass * v * v, outside, contact, false)) return t;
     }
     return -1.0;
@@ -191,17 +191,31 @@ TEST(ContactDepth, OfWhatSlidesEndsAtTheDeepestContact) {
   const solver::FreeMotions motions(robot.model);
   ContactDepth contact(robot, RunawayWatch::look_every);
   const Eigen::VectorXd p = Eigen::VectorXd::Constant(1, 20.0);
-  for (int i = 0; i < 10'000; ++i) contact.follow(motions, p, -2.0);
+  for (int i = 0; i < 10'000; ++i) contact.follow(motions, p, -2.0, 0.0);
   const ContactDepth::Mark mark = contact.now();
   const double enough =
       ContactDepth::unexplained * ContactDepth::deepest * std::sqrt(robot.model.total_mass());
   EXPECT_NEAR(mark.depth, ContactDepth::deepest * std::sqrt(robot.model.total_mass()), 1e-9);
   while (contact.now().way - mark.way < enough - 1e-3) {
-    contact.follow(motions, p, 2.0);
+    contact.follow(motions, p, 2.0, 0.0);
     ASSERT_FALSE(contact.is_no_spring(mark));
   }
-  for (int i = 0; i < 3; ++i) contact.follow(motions, p, 2.0);
+  for (int i = 0; i < 3; ++i) contact.follow(motions, p, 2.0, 0.0);
   EXPECT_TRUE(contact.is_no_spring(mark));
+}
+
+/// With |yd| = 1 the share is the cosine between p and the robot's way.
+TEST(ContactDepth, TellsWhetherTheRobotGoesAlongTheForce) {
+  const lang::Robot robot = load("mecanum").robot;
+  const solver::FreeMotions motions(robot.model);
+  constexpr double force = 20.0, share = 0.35;
+  for (const double cosine : {0.3, 0.4, -0.4}) {
+    ContactDepth contact(robot, RunawayWatch::look_every);
+    const ContactDepth::Mark mark = contact.now();
+    for (int i = 0; i < 10; ++i)
+      contact.follow(motions, Eigen::VectorXd::Constant(1, force), force * cosine, 0.5);
+    EXPECT_EQ(contact.goes_along(mark, share), std::abs(cosine) > share) << cosine;
+  }
 }
 
 TEST(ContactDepth, OfAHitThatIsAllDampingIsKeptUntilItsSpringIsQuiet) {
@@ -214,7 +228,7 @@ TEST(ContactDepth, OfAHitThatIsAllDampingIsKeptUntilItsSpringIsQuiet) {
   const auto follow = [&](double rate) {
     const double force = k * s + c * rate;
     s += dt * rate;
-    contact.follow(motions, Eigen::VectorXd::Constant(1, force), -force * rate);
+    contact.follow(motions, Eigen::VectorXd::Constant(1, force), -force * rate, 0.5 * rate * rate);
     return force;
   };
   while (v > 1e-4) v -= dt * follow(v);

@@ -113,6 +113,9 @@ TEST(RankCorrelation, IsSpearmans) {
   const std::vector<double> x{1, 2, 3, 4, 5, 6}, y{3, 1, 2, 6, 4, 5};
   EXPECT_NEAR(*rank_correlation(x, y), 1.0 - 6.0 * (4 + 1 + 1 + 4 + 1 + 1) / (6.0 * 35.0), 1e-15);
   EXPECT_FALSE(rank_correlation({1, 1, 1}, {1, 2, 3}));
+  // Within two groups y falls with x; over both it does not: ranks 2 1 4 3 of 1 2 3 4 are 1 - 6 x 4 / 60.
+  EXPECT_NEAR(*rank_correlation_within({1, 2, 3, 4}, {11, 10, 21, 20}, {0, 0, 1, 1}), -1.0, 1e-15);
+  EXPECT_NEAR(*rank_correlation({1, 2, 3, 4}, {11, 10, 21, 20}), 0.6, 1e-15);
   EXPECT_FALSE(rank_correlation({}, {}));
   // Two that are equal have the mean rank: the sum of products over ranks 1.5, 1.5, 3 and 1, 2, 3.
   EXPECT_NEAR(*rank_correlation({5, 5, 9}, {1, 2, 3}), 1.5 / std::sqrt(1.5 * 2.0), 1e-15);

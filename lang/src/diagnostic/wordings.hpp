@@ -262,6 +262,7 @@ Diagnostic fixed_with_mass(const Span& span, const std::string& what, const Span
 Diagnostic scripted_with_mass(const Span& span, const std::string& what, const Span& mass);
 Diagnostic one_fault(const Span& span);
 Diagnostic fault_of_all(const Span& span);
+Diagnostic leaves_for_good(const Span& span);
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known);
 /// Of a motor that is none: nothing would go wrong.

@@ -118,12 +118,16 @@ Diagnostic unasked_cells(const Span& span, const std::string& cell) {
 Diagnostic one_fault(const Span& span) {
   return error("E907", span, "a fault says exactly one thing that goes wrong",
                "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload`, `centre_of_mass`, "
-               "`inertia` or `plant`");
+               "`inertia`, `leaves` or `plant`");
 }
 
 Diagnostic fault_of_all(const Span& span) {
-  return error("E907", span, "floor and plant are not one robot's",
+  return error("E907", span, "floor, objects and plant are not one robot's",
                "leave `robot` out: such a fault is everybody's");
+}
+
+Diagnostic leaves_for_good(const Span& span) {
+  return error("E907", span, "an object that leaves does not come back", "leave `for` out");
 }
 
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,

@@ -30,13 +30,17 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.slip", dimension::velocity},
                                      {"truth.base.hand", dimension::force},
                                      {"truth.base.astray", dimension::length},
+                                     {"truth.base.mass", dimension::mass},
+                                     {"truth.base.drift", dimension::length},
+                                     {"run.done", dimension::time},
+                                     {"run.fault", dimension::time},
                                      {"run.stopped", dimension::time},
                                      {"run.slipped", dimension::time}};
-constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
-                                       {"steady", dimension::force}, {"touched", dimension::time},
-                                       {"x", dimension::length},     {"y", dimension::length},
-                                       {"yaw", dimension::angle},    {"latched", dimension::time},
-                                       {"pull", dimension::force},   {"hand", dimension::force}};
+constexpr TruthQuantity of_object[] = {
+    {"force", dimension::force},  {"peak", dimension::force},         {"steady", dimension::force},
+    {"touched", dimension::time}, {"x", dimension::length},           {"y", dimension::length},
+    {"yaw", dimension::angle},    {"latched", dimension::time},       {"pull", dimension::force},
+    {"hand", dimension::force},   {"stiffness", dimension::stiffness}};
 constexpr TruthQuantity of_robot[] = {{"speed", dimension::velocity},
                                       {"turn", dimension::angular_velocity},
                                       {"torque", dimension::none},

@@ -244,9 +244,35 @@ Start start_of(const ScenarioCell& cell) {
   return {cell.start_at, cell.start_yaw};
 }
 
+namespace {
+
+/// The times of a run from which a fault can count.
+std::vector<std::string> onset_names(const Program& program) {
+  std::vector<std::string> names;
+  for (const Task& task : program.tasks) names.push_back("run.entered." + task.name);
+  const auto add = [&](const auto& things) {
+    for (const auto& thing : things) {
+      names.push_back("truth." + thing.name + ".touched");
+      if (thing.dock) names.push_back("truth." + thing.name + ".latched");
+    }
+  };
+  if (program.scene) add(program.scene->objects);
+  if (program.scene) add(program.scene->robots);
+  return names;
+}
+
+}  // namespace
+
 void check_faults(const ScenarioCell& cell, const Program& program, Diagnostics& diagnostics) {
+  const std::vector<std::string> onsets = onset_names(program);
+  for (const Fault& fault : cell.faults) {
+    if (fault.of.empty() || std::ranges::find(onsets, fault.of) != onsets.end()) continue;
+    diagnostics.add(wording::unknown_name(fault.of_span, "time of a fault", fault.of, onsets));
+  }
   check_faults_for(cell.faults, program.robot, diagnostics);
-  if (program.scene) check_faults_of_partners(cell.faults, *program.scene, diagnostics);
+  if (!program.scene) return;
+  check_faults_of_partners(cell.faults, *program.scene, diagnostics);
+  check_leaving_objects(cell.faults, *program.scene, diagnostics);
 }
 
 std::optional<Scenario> scenario_with_parameters(const ScenarioFile& file, const fs::path& path,

@@ -145,7 +145,7 @@ void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnos
   if (!require_mapping(node, "`faults`", diagnostics)) return;
   for (const Entry& entry : node.entries) {
     if (entry.key.is_bad) continue;
-    file.faults.push_back({entry.key.text, parse_faults(entry.value, diagnostics)});
+    file.faults.push_back({entry.key.text, parse_faults(entry.value, true, diagnostics)});
   }
 }
 

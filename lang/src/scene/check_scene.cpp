@@ -113,6 +113,18 @@ void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& sce
   }
 }
 
+void check_leaving_objects(const std::vector<Fault>& faults, const Scene& scene, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const SceneObject& object : scene.objects) {
+    if (!object.guide && !object.leans()) names.push_back(object.name);
+  }
+  for (const Fault& fault : faults) {
+    if (fault.kind != FaultKind::object_leaves || std::ranges::find(names, fault.object) != names.end())
+      continue;
+    diagnostics.add(wording::unknown_name(fault.object_span, "object that can leave", fault.object, names));
+  }
+}
+
 void check_partners(const Scene& scene, Diagnostics& diagnostics) {
   for (const SceneRobot& other : scene.robots) {
     if (!other.program) continue;

@@ -16,6 +16,8 @@ void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diag
 /// The joints of the faults of the scene's other robots, which are loaded. Each named robot has to be in the
 /// scene.
 void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& scene, Diagnostics& diagnostics);
+/// The objects of the faults by which an object leaves: E301.
+void check_leaving_objects(const std::vector<Fault>& faults, const Scene& scene, Diagnostics& diagnostics);
 /// The frames of the other robots that sensors and hands name: E301.
 void check_partners(const Scene& scene, Diagnostics& diagnostics);
 

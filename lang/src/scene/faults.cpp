@@ -22,14 +22,19 @@ void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, 
   if (!node.is_bad) diagnostics.add(wording::unknown_fault(node.span, key, node.text, known));
 }
 
-Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
+Fault parse_fault(const Node& node, bool of_run, Diagnostics& diagnostics) {
   Fault fault;
   fault.span = node.span;
   MapReader map(node, "a fault", diagnostics);
   if (!map.is_mapping()) return fault;
   if (const Node* at = map.required("at"))
     fault.at = parse_positive(*at, dimension::time, "a fault's `at`", true, diagnostics).value_or(1.0);
-  if (const Node* length = map.optional("for"))
+  if (const Node* of = of_run ? map.optional("of") : nullptr) {
+    fault.of = parse_word(*of, "a fault's `of`", diagnostics).text;
+    fault.of_span = of->span;
+  }
+  const Node* length = map.optional("for");
+  if (length != nullptr)
     fault.duration =
         parse_positive(*length, dimension::time, "a fault's `for`", false, diagnostics).value_or(1.0);
   const Node* wheel = map.optional("wheel");
@@ -68,13 +73,21 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
     fault.value = parse_plain(*share, dimension::none, "`inertia`", diagnostics).value_or(0.0);
     if (fault.value < -most_inertia_less) diagnostics.add(wording::too_nimble(share->span));
   }
+  if (const Node* object = map.optional("leaves")) {
+    ++found;
+    fault.kind = FaultKind::object_leaves;
+    fault.object = parse_word(*object, "`leaves`", diagnostics).text;
+    fault.object_span = object->span;
+    if (length != nullptr) diagnostics.add(wording::leaves_for_good(length->span));
+  }
   const bool names_wheel = map.optional("torque") != nullptr;
   if (found != 1 && !map.has_unread_keys()) diagnostics.add(wording::one_fault(node.span));
   if (found == 1 && names_wheel && wheel == nullptr) map.required("wheel");
   const bool may_name_wheel = names_wheel || fault.kind == FaultKind::floor_friction;
   if (found == 1 && !may_name_wheel && wheel != nullptr) diagnostics.add(wording::one_fault(node.span));
   const bool is_the_floors = fault.kind == FaultKind::floor_friction && wheel == nullptr;
-  const bool is_the_worlds = is_the_floors || fault.kind == FaultKind::plant_diverges;
+  const bool is_the_worlds =
+      is_the_floors || fault.kind == FaultKind::plant_diverges || fault.kind == FaultKind::object_leaves;
   if (found == 1 && is_the_worlds && robot != nullptr) diagnostics.add(wording::fault_of_all(robot->span));
   map.finish();
   return fault;
@@ -82,10 +95,10 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics) {
+std::vector<Fault> parse_faults(const Node& node, bool of_run, Diagnostics& diagnostics) {
   std::vector<Fault> faults;
   if (!require_sequence(node, "`faults`", diagnostics)) return faults;
-  for (const Node& item : node.items) faults.push_back(parse_fault(item, diagnostics));
+  for (const Node& item : node.items) faults.push_back(parse_fault(item, of_run, diagnostics));
   return faults;
 }
 

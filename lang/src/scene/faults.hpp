@@ -9,7 +9,7 @@
 
 namespace zwang::lang {
 
-/// `[{at: 2 s, wheel: left_wheel, torque: lost}, ..]`
-std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics);
+/// `[{at: 2 s, wheel: left_wheel, torque: lost}, ..]`. `of_run`: they may count from a time of the run.
+std::vector<Fault> parse_faults(const Node& node, bool of_run, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

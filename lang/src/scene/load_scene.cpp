@@ -312,7 +312,7 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   if (state != nullptr) scene.state = parse_state_noise(*state, diagnostics);
   // The plant's truth only where the scene says so.
   scene.state.wheels_only = scene.state.wheels_only || state == nullptr;
-  if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, diagnostics);
+  if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, false, diagnostics);
   if (const Node* node = map.optional("pushes")) scene.pushes = parse_pushes(*node, scene, diagnostics);
   map.finish();
   return scene;
@@ -329,6 +329,7 @@ std::optional<Scene> load_scene_from(const std::filesystem::path& path, const st
   if (scene && !load_robots_of(*scene, path, root, budget, diagnostics)) return std::nullopt;
   const int errors_before = diagnostics.error_count();
   if (scene) check_faults_of_partners(scene->faults, *scene, diagnostics);
+  if (scene) check_leaving_objects(scene->faults, *scene, diagnostics);
   if (scene) check_partners(*scene, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return scene;

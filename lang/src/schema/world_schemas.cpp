@@ -218,21 +218,25 @@ Json scene_robot() {
                  {"state", base_state()}});
 }
 
-Json fault() {
-  return object(
-      "one thing that goes wrong",
-      {{"at", reference("quantity", "when the fault begins"), true},
-       {"for", reference("quantity", "how long it lasts; default to the end")},
-       {"samples", one_of_words("", {"lost", "nan", "inf", "huge", "frozen", "dead"})},
-       {"clock", one_of_words("", {"backwards", "ahead"})},
-       {"robot", word("one of `robots`; default the first robot")},
-       {"wheel", word("a joint with a motor; of `floor_friction`, any wheel's")},
-       {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
-       {"floor_friction", reference("quantity")},
-       {"payload", reference("quantity", "of the base; negative: lighter")},
-       {"centre_of_mass", reference("quantity", "of the base: how much farther ahead it lies")},
-       {"inertia", reference("quantity", "of the base: as a share of its own how much more it has")},
-       {"plant", one_of_words("", {"diverges"})}});
+Json fault(bool of_run) {
+  Json fault =
+      object("one thing that goes wrong",
+             {{"at", reference("quantity", "when the fault begins"), true},
+              {"for", reference("quantity", "how long it lasts; default to the end")},
+              {"samples", one_of_words("", {"lost", "nan", "inf", "huge", "frozen", "dead"})},
+              {"clock", one_of_words("", {"backwards", "ahead"})},
+              {"robot", word("one of `robots`; default the first robot")},
+              {"wheel", word("a joint with a motor; of `floor_friction`, any wheel's")},
+              {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
+              {"floor_friction", reference("quantity")},
+              {"payload", reference("quantity", "of the base; negative: lighter")},
+              {"centre_of_mass", reference("quantity", "of the base: how much farther ahead it lies")},
+              {"inertia", reference("quantity", "of the base: as a share of its own how much more it has")},
+              {"leaves", word("an object of the scene, that goes away")},
+              {"plant", one_of_words("", {"diverges"})}});
+  if (of_run)
+    fault["properties"]["of"] = word("the time of the run from which `at` counts; default the start");
+  return fault;
 }
 
 Json push() {
@@ -343,7 +347,7 @@ Json scene_file() {
                  {"robots", named("other robots, with tasks of their own", scene_robot())},
                  {"signals", named("the sources of the task's signals", scene_signal())},
                  {"state", base_state()},
-                 {"faults", list("faults, and when they begin", fault())},
+                 {"faults", list("faults, and when they begin", fault(false))},
                  {"pushes", list("hands of persons on robots and objects", push())}});
 }
 
@@ -363,7 +367,7 @@ Json scenario_file() {
                  {"start_yaw", reference("quantity")},
                  {"matrix", named("every combination is run: robot, start_at, start_yaw, params.NAME, faults",
                                   list("", Json::object()))},
-                 {"faults", named("sets of faults, for the matrix", list("", fault()))},
+                 {"faults", named("sets of faults, for the matrix", list("", fault(true)))},
                  {"expect", list("the expectations", expectation()), true}});
 }
 

@@ -107,10 +107,14 @@ struct RobotNumber {
   Dimension dimension;
   bool is_factor;
 };
-constexpr std::array robot_numbers{
-    RobotNumber{"mass", dimension::none, true},     RobotNumber{"payload", dimension::mass, false},
-    RobotNumber{"inertia", dimension::none, true},  RobotNumber{"centre_of_mass", dimension::length, false},
-    RobotNumber{"friction", dimension::none, true}, RobotNumber{"wheel_radius", dimension::none, true}};
+constexpr std::array robot_numbers{RobotNumber{"mass", dimension::none, true},
+                                   RobotNumber{"payload", dimension::mass, false},
+                                   RobotNumber{"inertia", dimension::none, true},
+                                   RobotNumber{"centre_of_mass", dimension::length, false},
+                                   RobotNumber{"friction", dimension::none, true},
+                                   RobotNumber{"wheel_radius", dimension::none, true},
+                                   RobotNumber{"encoder_step", dimension::angle, false},
+                                   RobotNumber{"encoder_noise", dimension::angle, false}};
 
 template <typename Number, std::size_t N>
 const Number* number_named(const std::array<Number, N>& numbers, const std::string& key) {
@@ -190,6 +194,10 @@ std::optional<BadValue> bad_robot_value(const RobotNumber& number, double value,
   if (number.is_factor && !(value > 0.0))
     return BadValue{name + " cannot be " + wording::figure(value, "") + ": a factor is above 0",
                     "draw factors around 1, all above 0"};
+  const bool is_of_encoders = key == "encoder_step" || key == "encoder_noise";
+  if (is_of_encoders && !(value >= 0.0 && value <= longest_encoder_step))
+    return BadValue{name + " cannot be " + wording::figure(value, "rad"),
+                    "draw from 0 rad to " + wording::figure(longest_encoder_step, "rad")};
   const double least = key == "mass" ? 1.0 - most_payload_less : 1.0 - most_inertia_less;
   if ((key == "mass" || key == "inertia") && value < least)
     return BadValue{
@@ -219,6 +227,8 @@ std::optional<BadValue> put_into_robot(const std::string& key, double value, Pro
   if (key == "centre_of_mass") act(FaultKind::centre_of_mass, value);
   if (key == "friction") deviation.friction = value;
   if (key == "wheel_radius") deviation.wheel_radius = value;
+  if (key == "encoder_step") deviation.encoder_step = value;
+  if (key == "encoder_noise") deviation.encoder_noise = value;
   return std::nullopt;
 }
 

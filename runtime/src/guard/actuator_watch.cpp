@@ -114,10 +114,13 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
   const bool is_even = motor.is_armed && claim.ticks >= dwell_ticks_;
   const double least = std::max(least_way, own_way * motor.radius * std::abs(q - claim.q));
-  if (is_even && (claim.is_apart || way_of(motor, fit, claim.contact, contact) > least)) return true;
+  const bool drives =
+      way_of(motor, fit, claim.contact, contact) > least && contact.goes_along(claim.contact, along);
+  if (is_even && (claim.is_apart || drives)) return true;
   const bool has_rolled = std::abs(q - claim.close_q) * motor.radius > travel;
   const bool has_turned = claim.along_ticks - claim.close_ticks > turning_ticks_;
-  if (motor.obedience.is_seen() || has_turned || !has_rolled || !contact.is_no_spring(claim.close_contact))
+  if (motor.obedience.is_seen() || has_turned || !has_rolled || !contact.is_no_spring(claim.close_contact) ||
+      !contact.goes_along(claim.close_contact, along))
     return false;
   if (kind != stuck) return claim.close_ticks >= close_ticks_;
   const bool is_steady = motor.high_sum - motor.low_sum < closely * told;

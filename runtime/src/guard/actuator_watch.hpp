@@ -28,11 +28,12 @@ namespace zwang::runtime {
 ///    a padded wall takes work, first by its damper, then by its spring, and is even in between.
 ///  - Place. Where the wheel rolls on by `travel`, a contact between the robot and a standing object gives
 ///    way or grows. A motor's force keeps its direction and size `closely` meanwhile, farther than a spring
-///    of the same depth does (ContactDepth). Its onset does not matter. So a motor that failed without a
-///    command is found between two hits. A cart in tow moves along, too, and in a bend its pull turns slowly
-///    through all directions. So a force that came into this direction slower than in `turning` is not a
-///    motor's. A motor that obeyed since its command started (Obedience) is not claimed: a force as large as
-///    its command has another source.
+///    of the same depth does (ContactDepth). The robot goes `along` it meanwhile: a base that turns about a
+///    corner at the wall rolls the wheel beside it, too, but hardly goes along the force of the corner. Its
+///    onset does not matter. So a motor that failed without a command is found between two hits. A cart in
+///    tow moves along, too, and in a bend its pull turns slowly through all directions. So a force that came
+///    into this direction slower than in `turning` is not a motor's. A motor that obeyed since its command
+///    started (Obedience) is not claimed: a force as large as its command has another source.
 ///  - Order. Contact precedes the command that answers it. A fault makes at most 2 max|tau_j| of the motor's
 ///    commands until then. If p jumps out of quiet to more, there is a contact. However soft it is, p counts
 ///    as its force. This ends when p has pressed `left_behind` times as hard as the claim, or is quiet again.
@@ -67,6 +68,9 @@ class ActuatorWatch {
   static constexpr double own_way =
       0.5;  ///< of its rim's way: a motor drives all of it, a contact beside it none
   static constexpr double travel = 0.5e-3;  ///< [m] of the wheel's rim
+  /// Of the robot's whole way. A contact that stands seems to have a tenth, if its direction is off by
+  /// `closely`. An error of the mass may double that.
+  static constexpr double along = 0.2;
   static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:

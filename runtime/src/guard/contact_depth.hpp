@@ -28,8 +28,8 @@ class ContactDepth {
   ContactDepth(const lang::Robot& robot, double period);
 
   void reset() noexcept;
-  /// p and what it does, P = p . yd. [W]
-  void follow(const solver::FreeMotions& motions, Force p, double power) noexcept;
+  /// p, what it does, P = p . yd [W], and the energy of the motion, T = |yd|^2 / 2 [J].
+  void follow(const solver::FreeMotions& motions, Force p, double power, double kinetic_energy) noexcept;
 
   /// A moment to look back to.
   struct Mark {
@@ -38,10 +38,15 @@ class ContactDepth {
     double work = 0.0;   ///< [J] that the world may have stored
     double way = 0.0;    ///< that the world drove the robot, in all
     double given = 0.0;  ///< [J] of work it did on the robot, in all
+    double gone = 0.0;   ///< that the robot went, in any direction, in all
   };
   const Mark& now() const noexcept { return now_; }
   /// Whether p since then did what no spring does.
   bool is_no_spring(const Mark& since) const noexcept;
+
+  /// Whether the robot went along p since then, by this share of its way. A thing that stands drives no way
+  /// at all, however the robot turns about it.
+  bool goes_along(const Mark& since, double share) const noexcept;
 
   static constexpr double unexplained = 0.05;  ///< of x: the least way that a spring does not explain
   static constexpr double deepest = 0.1;       ///< [m] times the root of the robot's mass

@@ -36,10 +36,10 @@ std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solve
   if (!runaway_.follow(sent, state.qd)) return first;
   const double power = observer.power(runaway_.rates());
   const auto p = observer.force().head(observer.motions().count);
-  contact_.follow(observer.motions(), p, power);
+  const double energy = observer.kinetic_energy(runaway_.rates());
+  contact_.follow(observer.motions(), p, power, energy);
   pusher_.look(observer, power, runaway_.rates());
   take_unless_pushed(reversed_.look(power, observer.torque(), runaway_.rates(), contact_));
-  const double energy = observer.kinetic_energy(runaway_.rates());
   take(runaway_.look(set, energy, p, contact_, pusher_.is_at_work(), blends));
   return first;
 }

@@ -1,7 +1,10 @@
 #include "injected_faults.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace zwang::runtime {
 
@@ -17,17 +20,50 @@ constexpr double huge = 1e300;
 
 }  // namespace
 
-InjectedFaults::InjectedFaults(std::vector<Fault> faults, const solver::Model& model) : kept_(model) {
-  for (Fault& fault : faults) {
+InjectedFaults::InjectedFaults(const std::vector<Fault>& of_scene, const std::vector<Fault>& of_run,
+                               const solver::Model& model)
+    : kept_(model) {
+  const auto add = [&](const Fault& fault, bool is_of_run) {
     Injected injected;
+    injected.of_run = is_of_run;
     if (!fault.joint.empty()) {
       const auto joint = model.find_joint(fault.joint);
       if (!joint) throw std::invalid_argument("fault: the robot has no joint `" + fault.joint + "`");
       injected.joint = *joint;
     }
-    injected.fault = std::move(fault);
+    injected.fault = fault;
+    injected.after = fault.at;
+    if (!fault.of.empty()) injected.fault.at = std::numeric_limits<double>::infinity();
     faults_.push_back(std::move(injected));
+  };
+  for (const Fault& fault : of_scene) add(fault, false);
+  for (const Fault& fault : of_run) add(fault, true);
+}
+
+bool InjectedFaults::waits() const noexcept {
+  return std::ranges::any_of(faults_, [](const Injected& one) { return std::isinf(one.fault.at); });
+}
+
+void InjectedFaults::come(const std::string& of, double time) noexcept {
+  for (Injected& one : faults_) {
+    if (std::isinf(one.fault.at) && one.fault.of == of) one.fault.at = time + one.after;
   }
+}
+
+double InjectedFaults::onset_of_run() const noexcept {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Injected& one : faults_) {
+    if (one.of_run) first = std::min(first, one.fault.at);
+  }
+  return first;
+}
+
+std::vector<Fault> InjectedFaults::all() const {
+  std::vector<Fault> all;
+  for (const Injected& one : faults_) {
+    if (!one.by_hand) all.push_back(one.fault);
+  }
+  return all;
 }
 
 void InjectedFaults::put(const Fault& fault, Eigen::Index joint) {
@@ -54,6 +90,14 @@ const Fault* InjectedFaults::find(FaultKind kind, double time, Eigen::Index join
 
 bool InjectedFaults::active(FaultKind kind, double time) const noexcept {
   return find(kind, time) != nullptr;
+}
+
+bool InjectedFaults::object_leaves(const std::string& object, double time) noexcept {
+  for (Injected& one : faults_) {
+    const bool is_of_it = one.fault.kind == FaultKind::object_leaves && one.fault.object == object;
+    if (is_of_it && in_force(one.fault, time) && !std::exchange(one.has_begun, true)) return true;
+  }
+  return false;
 }
 
 void InjectedFaults::spoil(Sensed& sensed) noexcept {

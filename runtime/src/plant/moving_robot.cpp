@@ -71,6 +71,10 @@ void MovingRobot::set_payload(mjModel& m, double mass) const noexcept {
   m.body_subtreemass[0] += change;
 }
 
+double MovingRobot::mass(const mjModel& m) const noexcept {
+  return m.body_subtreemass[base_body_];
+}
+
 void MovingRobot::shift_centre_of_mass(mjModel& m, double ahead) const noexcept {
   // Else the simulator takes the body's own frame for the one of its inertia.
   m.body_sameframe[base_body_] = 0;

@@ -28,6 +28,8 @@ class MovingRobot {
   /// Faults of the base's own body; each replaces the one before it. [kg] in excess of its weight, [m] ahead
   /// of its centre of mass, and a factor of its own inertia about that centre.
   void set_payload(mjModel_& m, double mass) const noexcept;
+  /// Of all its links, payload included. [kg]
+  double mass(const mjModel_& m) const noexcept;
   void shift_centre_of_mass(mjModel_& m, double ahead) const noexcept;
   void scale_inertia(mjModel_& m, double factor) const noexcept;
   /// How many of the simulation's freedoms are this robot's.

@@ -165,8 +165,10 @@ void MujocoPlant::Simulation::read_base() noexcept {
   truth.x = at.x();
   truth.y = at.y();
   truth.yaw = solver::yaw_of(first().base_rotation(*model, *data));
-  for (std::size_t r = 0; r < robots.size(); ++r)
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    base_truth(r).mass = robots[r].mass(*model);
     BaseWatch::read_lean(robots[r], *model, *data, base_truth(r));
+  }
 }
 
 void MujocoPlant::Simulation::read_motion(double before) noexcept {

@@ -7,11 +7,13 @@
 #include <stdexcept>
 
 #include "body_faults.hpp"
+#include "encoders.hpp"
 #include "estimate/ticks.hpp"
 #include "injected_faults.hpp"
 #include "motor_drive.hpp"
 #include "robot_senses.hpp"
 #include "scene_hands.hpp"
+#include "wheel_size.hpp"
 
 namespace zwang::runtime {
 
@@ -20,13 +22,16 @@ using lang::FaultKind;
 namespace {
 
 /// The faults of a robot of the scene, or of the first one and the world, whose name is empty.
-std::vector<lang::Fault> faults_of(const std::string& robot, const lang::Scene& scene,
-                                   const std::vector<lang::Fault>& more) {
+std::vector<lang::Fault> faults_of(const std::string& robot, const std::vector<lang::Fault>& all) {
   std::vector<lang::Fault> faults;
-  for (const std::vector<lang::Fault>* some : {&scene.faults, &more}) {
-    std::copy_if(some->begin(), some->end(), std::back_inserter(faults),
-                 [&](const lang::Fault& fault) { return fault.robot == robot; });
-  }
+  std::ranges::copy_if(all, std::back_inserter(faults),
+                       [&](const lang::Fault& fault) { return fault.robot == robot; });
+  return faults;
+}
+
+/// The spans of a scenario's faults point into the scenario, and not into the files of the program.
+std::vector<lang::Fault> without_spans(std::vector<lang::Fault> faults) {
+  for (lang::Fault& fault : faults) fault.span = {};
   return faults;
 }
 
@@ -37,31 +42,6 @@ lang::Robot with_friction(lang::Robot robot, double factor) {
   }
   return robot;
 }
-
-/// Wheels whose radius is `factor` times what the model says. With the same power, they turn 1/factor times
-/// as far along the floor, and push 1/factor times as hard. The simulation has the model's wheels, and their
-/// angles and torques are told so. Their own inertia is told as factor^-2 of the model's.
-class WheelSize {
- public:
-  WheelSize(const solver::Model& model, double factor) : share_(1.0 / factor) {
-    for (const solver::Wheel& wheel : model.wheels()) {
-      if (share_ != 1.0 && model.joint(wheel.body - 1).actuated) joints_.push_back(wheel.body - 1);
-    }
-  }
-  void tell(solver::State& state) const noexcept {
-    for (const int joint : joints_) {
-      state.q(joint) *= share_;
-      state.qd(joint) *= share_;
-    }
-  }
-  void push(Eigen::VectorXd& torque) const noexcept {
-    for (const int joint : joints_) torque(joint) *= share_;
-  }
-
- private:
-  double share_;
-  std::vector<int> joints_;
-};
 
 const lang::Scene& scene_of(const lang::Program& program) {
   if (!program.scene) throw std::invalid_argument("plant: the program has no scene");
@@ -110,7 +90,9 @@ struct ScenePlant::Parts {
         wheels(program.robot.model, options.deviation.wheel_radius),
         simulation(robot, scene, options.simulation),
         senses(program, scene, 0, program.robot, options.seed),
-        faults(faults_of({}, scene, options.faults), program.robot.model),
+        faults(faults_of({}, scene.faults), faults_of({}, without_spans(options.faults)),
+               program.robot.model),
+        encoders(options.deviation, options.seed),
         changes(0, program.robot.model, scene.floor_friction),
         motors(program.robot),
         period(options.simulation.period),
@@ -127,13 +109,17 @@ struct ScenePlant::Parts {
     senses.start_at(actual);
     RunnerSettings settings;
     settings.extra_columns = base_truth_columns();
+    for (const lang::Task& task : program.tasks) entries.push_back("run.entered." + task.name);
+    for (const lang::SceneObject& object : scene.objects) things.push_back("truth." + object.name);
+    for (const lang::SceneRobot& other : scene.robots) things.push_back("truth." + other.name);
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
       const SimulationSteps steps(scene.robots[i].program->robot.control_period, options.simulation.period);
       settings.period = steps.per_tick() * steps.period();
       partners.emplace_back(scene.robots[i], settings);
       const lang::Program& own = *partners.back().program;
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
-                      InjectedFaults(faults_of(partners.back().name, scene, options.faults), own.robot.model),
+                      InjectedFaults(faults_of(partners.back().name, scene.faults),
+                                     faults_of(partners.back().name, options.faults), own.robot.model),
                       Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size()),
                       partners.back().torque, BodyFaults(i + 1, own.robot.model, scene.floor_friction), steps,
                       MotorDrive(own.robot)});
@@ -159,6 +145,40 @@ struct ScenePlant::Parts {
   void change_world(double time) noexcept {
     changes.make(simulation, faults, floor_friction(time), time);
     if (faults.active(FaultKind::plant_diverges, time)) simulation.diverge();
+  }
+
+  /// A time of the run has come from which faults count.
+  void come(const std::string& of, double time) noexcept {
+    faults.come(of, time);
+    for (Told& of_partner : told) of_partner.faults.come(of, time);
+  }
+
+  bool waits() const noexcept {
+    return faults.waits() || std::ranges::any_of(told, [](const Told& one) { return one.faults.waits(); });
+  }
+
+  /// The onsets of faults that count from a contact, and objects that leave.
+  void look_for_onsets(double time) noexcept {
+    const std::vector<ObjectTruth>& objects = simulation.truth().objects;
+    for (std::size_t k = 0; waits() && k < things.size(); ++k) {
+      if (objects[k].touched) come(things[k] + ".touched", *objects[k].touched);
+      if (objects[k].latched) come(things[k] + ".latched", *objects[k].latched);
+    }
+    if (!faults.active(FaultKind::object_leaves, time)) return;
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+      if (faults.object_leaves(scene.objects[k].name, time)) send_away(k, time);
+    }
+  }
+
+  /// Along its own x axis, on the side that is away from the first robot.
+  void send_away(std::size_t number, double time) {
+    const ObjectTruth& now = simulation.truth().objects[number];
+    const double x = std::cos(now.yaw), y = std::sin(now.yaw);
+    const bool is_ahead = x * (now.x - simulation.truth().x) + y * (now.y - simulation.truth().y) > 0.0;
+    const double way = is_ahead ? lang::leaves_by : -lang::leaves_by;
+    simulation.move_object(number,
+                           {{time, {now.x, now.y}, now.yaw},
+                            {time + lang::leaves_within, {now.x + way * x, now.y + way * y}, now.yaw}});
   }
 
   /// The partner's tick, when it is time for it.
@@ -244,6 +264,7 @@ struct ScenePlant::Parts {
   MujocoPlant simulation;
   RobotSenses senses;
   InjectedFaults faults;
+  Encoders encoders;
   BodyFaults changes;
   MotorDrive motors;
   double period;  ///< [s] of a step
@@ -260,6 +281,7 @@ struct ScenePlant::Parts {
   };
   std::vector<HeldDock> held_docks;
   SceneHands hands;
+  std::vector<std::string> entries, things;  ///< `run.entered.press`, by task; `truth.wall`, by object
 };
 
 ScenePlant::ScenePlant(const lang::Program& program, const ScenePlantOptions& options)
@@ -277,7 +299,9 @@ PlantStatus ScenePlant::sense(Sensed& sensed) noexcept {
   p.senses.measure(p.simulation.truth(), p.torque, p.actual);
   if (p.faults.active(FaultKind::samples_lost, p.actual.time)) return PlantStatus::unreachable;
   p.senses.tell(p.actual, sensed);
+  p.encoders.count(sensed.state.q);
   p.faults.spoil(sensed);
+  p.encoders.read(sensed.state.q);
   return PlantStatus::ok;
 }
 
@@ -302,6 +326,7 @@ PlantStatus ScenePlant::follow(const Command& command) noexcept {
 
 PlantStatus ScenePlant::Parts::step() noexcept {
   const double time = simulation.truth().time;
+  look_for_onsets(time);
   faults.spoil(torque, time);
   change_world(time);
   press_by_hands(time);
@@ -343,6 +368,20 @@ void ScenePlant::end_lean() noexcept {
     if (p.sense() != PlantStatus::ok || stands()) return;
     if (apply(rest) != PlantStatus::ok) return;
   }
+}
+
+void ScenePlant::note_entry(int task, double time) noexcept {
+  if (parts_->waits()) parts_->come(parts_->entries[static_cast<std::size_t>(task)], time);
+}
+
+double ScenePlant::onset() const noexcept {
+  double first = parts_->faults.onset_of_run();
+  for (const Parts::Told& partner : parts_->told) first = std::min(first, partner.faults.onset_of_run());
+  return first;
+}
+
+std::vector<lang::Fault> ScenePlant::faults() const {
+  return parts_->faults.all();
 }
 
 const Truth& ScenePlant::truth() const noexcept {

@@ -104,6 +104,7 @@ const Eigen::VectorXd& step(Runner& runner, const lang::Program& program, const 
   if (enters && !transition->resumes) facts.note_entry(transition->to, time);
   if (ends_by_itself(runner)) {
     facts.note_outputs(outputs_at_the_end(program, runner, outputs));
+    if (transition->to == runner.scheduler().program_task_count()) facts.note_done(time);
   } else {
     facts.note_outputs(runner.outputs());
   }
@@ -141,6 +142,7 @@ class CellWatch final : public SimulatedRunHost {
     const bool ends = std::exchange(has_ticked_, false) && ends_by_itself(runner_);
     const bool in_task = runner_.state() == RunState::running || ends;
     const double share = torque_share(program_.robot, tau_);
+    facts_.note_fault(plant_.onset());
     facts_.update(plant_.truth(), plant_.true_state(), share);
     path_.look(plant_.truth());
     if (plant_.truth().base.hand > 0.0 && !pushed_) pushed_ = plant_.truth().time;

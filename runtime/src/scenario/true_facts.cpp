@@ -17,7 +17,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 TrueFacts::TrueFacts(const lang::Program& program)
     : program_(program),
       frames_(program.frames, program.robot.model, program.signals.size()),
-      values_(lang::truth_names(program).size(), unknown) {
+      values_(lang::truth_names(program).size(), unknown),
+      onset_(std::numeric_limits<double>::infinity()) {
   values_[lang::truth_switch] = 0.0;
   if (program.scene) steady_.resize(program.scene->objects.size() + program.scene->robots.size());
   for (const lang::Region& region : program.regions) regions_.emplace_back(region, program.robot.footprint);
@@ -47,11 +48,23 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_push] = truth.base.push;
   values_[lang::truth_slip] = truth.base.slip;
   values_[lang::truth_hand] = truth.base.hand;
+  values_[lang::truth_mass] = truth.base.mass;
+  look_at_fault(truth);
   const std::size_t objects = truth.objects.size() - truth.robots.size();
   for (std::size_t k = 0; k < objects; ++k)
     put_object(k, truth, values_.data() + lang::truth_base_count + k * lang::truth_object_count);
   put_travels_and_wrenches(truth);
   look_at_regions();
+}
+
+void TrueFacts::look_at_fault(const Truth& truth) noexcept {
+  if (truth.time >= onset_) {
+    values_[lang::run_fault] = onset_;
+  } else {
+    x_ = truth.x;
+    y_ = truth.y;
+  }
+  values_[lang::truth_drift] = std::hypot(truth.x - x_, truth.y - y_);
 }
 
 void TrueFacts::put_travels_and_wrenches(const Truth& truth) noexcept {
@@ -82,6 +95,10 @@ void TrueFacts::put_object(std::size_t number, const Truth& truth, double* value
   values[lang::truth_latched] = object.latched.value_or(unknown);
   values[lang::truth_pull] = object.pull;
   values[lang::truth_object_hand] = object.hand;
+  const lang::Scene& scene = *program_.scene;
+  values[lang::truth_stiffness] = number < scene.objects.size()
+                                      ? scene.objects[number].stiffness
+                                      : scene.robots[number - scene.objects.size()].stiffness;
 }
 
 void TrueFacts::look_at_regions() noexcept {
@@ -139,6 +156,7 @@ void TrueFacts::note_pose(const solver::State& estimated, const solver::State& s
 
 void TrueFacts::note_stop(double time) noexcept {
   values_[lang::run_stopped] = time;
+  values_[lang::run_done] = unknown;
 }
 
 void TrueFacts::note_slip(double time) noexcept {

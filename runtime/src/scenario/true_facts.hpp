@@ -27,6 +27,9 @@ class TrueFacts {
   /// When the protective stop latched, and when slip was first reported [s].
   void note_stop(double time) noexcept;
   void note_slip(double time) noexcept;
+  /// When `done` was reached, and when the first fault of the scenario begins or began [s].
+  void note_done(double time) noexcept { values_[lang::run_done] = time; }
+  void note_fault(double onset) noexcept { onset_ = onset; }
   /// The torques that a tick gives, of which `is_switch` says that it went from one task to another.
   void note_torque(const Eigen::VectorXd& tau, bool is_switch) noexcept;
   /// The values of the task file's outputs.
@@ -45,6 +48,7 @@ class TrueFacts {
   double* of_partner(std::size_t number) noexcept;
   void put_object(std::size_t object, const Truth& truth, double* values) noexcept;
   void put_travels_and_wrenches(const Truth& truth) noexcept;
+  void look_at_fault(const Truth& truth) noexcept;
   void look_at_regions() noexcept;
 
   const lang::Program& program_;
@@ -56,6 +60,8 @@ class TrueFacts {
   std::vector<double> values_;        ///< in the order of lang::truth_names
   std::vector<TaskEntries> entries_;  ///< of each of the program's tasks
   double time_ = 0.0;
+  double onset_;              ///< [s] of the first fault
+  double x_ = 0.0, y_ = 0.0;  ///< [m] the base's place up to then
 };
 
 }  // namespace zwang::runtime

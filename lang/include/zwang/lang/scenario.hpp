@@ -19,6 +19,9 @@ namespace zwang::lang {
 struct RobotDeviation {
   double friction = 1.0;      ///< dry and viscous, of every joint
   double wheel_radius = 1.0;  ///< of every wheel with a motor
+  // Not factors, and nothing that the task knows.
+  double encoder_step = 0.0;   ///< [rad] of every joint; 0: exact positions
+  double encoder_noise = 0.0;  ///< [rad] standard deviation of every joint's position, failed or not
 };
 
 /// One run: what stands in the place of the task file's own words.
@@ -94,6 +97,10 @@ enum TruthOfBase {
   truth_slip,          ///< [m/s] of the wheel that slides fastest
   truth_hand,          ///< [N] of all hands on the whole robot
   truth_astray,        ///< [m] of a corner of the footprint from where the robot has it, the largest
+  truth_mass,          ///< [kg] of the whole robot, with its payload
+  truth_drift,         ///< [m] from where the first fault of the scenario found the base
+  run_done,            ///< [s] when the task reached `done`; unknown after a stop
+  run_fault,           ///< [s] when the first fault of the scenario began
   run_stopped,         ///< [s] when the protective stop latched
   run_slipped,         ///< [s] when slip was told first
   truth_base_count
@@ -110,6 +117,7 @@ enum TruthOfObject {
   truth_latched,      ///< [s] when a hook latched in its dock
   truth_pull,         ///< [N] with which the hook pulls the dock outwards; 0 while it is not latched
   truth_object_hand,  ///< [N] of all hands on it
+  truth_stiffness,    ///< [N/m] of one contact point
   truth_object_count
 };
 /// Of another robot: what an object has, and

@@ -167,7 +167,11 @@ enum class FaultKind {
   centre_of_mass,   ///< the base's own centre of mass lies `value` [m] farther ahead
   inertia,          ///< the base turns `value` times its own inertia harder; negative: more easily
   plant_diverges,   ///< the simulation leaves the finite numbers
+  object_leaves,    ///< `object` goes `leaves_by` away from the first robot within `leaves_within`
 };
+
+/// The way of an object that leaves, and the time for it: faster than any robot follows.
+inline constexpr double leaves_by = 3.0, leaves_within = 0.2;  // [m], [s]
 
 /// A fault that begins at a time.
 struct Fault {
@@ -178,6 +182,12 @@ struct Fault {
   Span joint_span{};
   std::string robot;  ///< whose: one of Scene::robots; empty: the first one's, or the world's
   Span robot_span{};
+  std::string object;  ///< of the scene, that leaves
+  Span object_span{};
+  /// A time of the run from which `at` counts, as an expectation names it: `run.entered.press`. Empty: the
+  /// start.
+  std::string of;
+  Span of_span{};
   double value = 0.0;  ///< of the kinds that have one, in the unit that FaultKind names
   Span span;
 };

@@ -34,6 +34,7 @@ struct ObjectTruth {
 
 /// Of a robot's base, beside its place and its planar motion.
 struct BaseTruth {
+  double mass = 0.0;               ///< [kg] of the whole robot, with its payload
   double roll = 0.0, pitch = 0.0;  ///< [rad] about its own x, then y; 0 on its wheels
   /// Means over 20 ms. While a hit falls into them they keep their value.
   double acceleration = 0.0;  ///< [m/s^2] of its origin, in the plane

@@ -95,6 +95,13 @@ class ZWANG_EXPORT ScenePlant : public Plant {
   const Truth& truth() const noexcept;
   /// Without noise or faults.
   const solver::State& true_state() const noexcept;
+  /// The first robot has entered a task of the program: faults may count from it.
+  void note_entry(int task, double time) noexcept;
+  /// [s] when the first of the options' faults begins; infinite while nobody knows.
+  double onset() const noexcept;
+  /// Of the first robot and the world, the scene's first. `at` is infinite of one that counts from a time
+  /// that has not come; those of the options have no span.
+  std::vector<lang::Fault> faults() const;
   /// In the scene's order.
   std::vector<ScenePartner>& partners() noexcept;
 
