@@ -18,6 +18,11 @@ inline bool has_same_axis(const Row& one, const Row& other) {
          (one.reference_body < 0 || is_same(one.a_reference, other.a_reference));
 }
 
+/// All rows of a constraint act along its axis.
+inline bool is_of_same_constraint(const Row& one, const Row& other) {
+  return one.constraint >= 0 && one.constraint == other.constraint;
+}
+
 /// One number to tell axes by: equal for equal ones, and for few others.
 inline double key_of(const Row& row) {
   const double* const a = row.a.angular.data();
