@@ -32,8 +32,8 @@ inline double key_of(const Row& row) {
 
 /// Whether its numbers are valid, whatever its axis is.
 inline bool has_valid_numbers(const Row& row) {
-  return row.b * 0.0 + row.force * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
-         row.hi >= 0.0;  // false for NaN, too
+  const bool is_finite = row.b * 0.0 + row.force * 0.0 == 0.0;
+  return is_finite & (row.weight > 0.0) & (row.lo <= 0.0) & (row.hi >= 0.0);  // false for NaN, too
 }
 
 }  // namespace zwang::solver

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/whitened_rows.hpp"
 
@@ -10,7 +9,6 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr int no_level = std::numeric_limits<int>::max();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
@@ -52,6 +50,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
       inverse_pivots_(Vector::Zero(dimension)),
       entries_(static_cast<std::size_t>(rows)),
+      limits_(static_cast<std::size_t>(rows)),
       last_on_axis_(static_cast<std::size_t>(rows)),
       nearest_(static_cast<std::size_t>(rows)),
       room_(static_cast<std::size_t>(rows)),
@@ -62,7 +61,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       free_nu_(Vector::Zero(dimension)),
       program_(2 * rows + motors, dimension, dimension + rows) {
   for (std::vector<int>* list :
-       {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &limits_, &levels_, &forces_,
+       {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &later_limits_, &levels_, &forces_,
         &motions_, &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_})
     list->reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
@@ -104,8 +103,8 @@ bool BoundedProblem::solve(int max_iterations, std::span<RowSolution> solutions)
   return exact;
 }
 
-/// The levels as a table of contents. From the first level on that is not plain, stages solve them. False when
-/// an idle limit would have had to push.
+/// The levels as a table of contents. From the first level on that is not plain, stages solve them. False
+/// when an idle limit would have had to push.
 bool BoundedProblem::solve_levels(int max_iterations, bool& exact) noexcept {
   frozen_count_ = 0;
   p_.head(dimension_).setZero();
@@ -218,7 +217,7 @@ void BoundedProblem::bound_row(int i) noexcept {
   if (force == 0.0) {
     e.out = true;
     e.status = RowStatus::unreachable;
-    is_limit_out_ = is_limit_out_ || e.is_limit;
+    is_axis_out_ = true;
   }
   if (e.out || e.kind == RowKind::force) return;
   if (!std::isfinite(force)) force = 1e7 * largest_demand() / e.length;

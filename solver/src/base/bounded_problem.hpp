@@ -52,7 +52,11 @@ class BoundedProblem {
   /// With |B|^2 below `least_square`, nothing moves along the row.
   void set_row(int row, const Row& source, double d, const double* B, double least_square) noexcept;
   /// A row with the same B as an earlier one, the first of these.
-  void set_twin(int row, const Row& source, double d, int first) noexcept;
+  void set_twin(int row, const Row& source, double d, int first) noexcept {
+    Entry& e = entry(row);
+    e.twin = e.axis = first;
+    take_row(row, source, d);
+  }
   /// Writes the rows' solutions, which stay where they are until the next problem. False when an active set
   /// met its iteration cap; all results stay inside their bounds.
   bool solve(int max_iterations, std::span<RowSolution> solutions) noexcept;
@@ -154,7 +158,23 @@ class BoundedProblem {
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
 
-  void take_row(int i, const Row& row, double d) noexcept;
+  /// Limits are posed where a level is not plain.
+  void take_row(int i, const Row& row, double d) noexcept {
+    Entry& e = entry(i);
+    d_[i] = d;
+    e.source = &row;
+    if (row.level != last_level_) note_level(row.level);
+    e.is_posed = false;
+    if (row.kind == RowKind::upper || row.kind == RowKind::lower) {
+      limits_[static_cast<std::size_t>(limit_count_++)] = i;
+    } else {
+      list_drive(i);
+    }
+  }
+  void list_drive(int i) noexcept;
+  std::span<const int> limits() const noexcept {
+    return {limits_.data(), static_cast<std::size_t>(limit_count_)};
+  }
   bool can_be_idle(int i) const noexcept;
   int& last_beside(int i) noexcept;
   bool is_beyond_another(int i) noexcept;
@@ -199,6 +219,7 @@ class BoundedProblem {
   enum class Change { none, some, unclear };
   void start_room() noexcept;
   bool allow(int level) noexcept;
+  bool narrow(End& end, int i, double side) noexcept;
   bool limits_have_room(const Vector& p) const noexcept;
   bool push_plainly(int level) noexcept;
   double parked_force(std::size_t k) noexcept;
@@ -316,11 +337,13 @@ class BoundedProblem {
   std::vector<Entry> entries_;
   std::span<RowSolution> solutions_;
   std::vector<int> sums_, drives_, limits_;  ///< all rows by what they are; drives_: drivers and forces
+  int limit_count_ = 0;
   /// Once limits are posed: all rows that take part, and the limits that have nothing to do beside another
   /// one of their level.
   std::vector<int> awake_, idle_;
   bool are_limits_posed_ = false;
   std::vector<int> levels_;  ///< of all rows, the first one first
+  int last_level_ = 0;       ///< of the row before
   std::vector<int> forces_, motions_,
       limits_above_;                 ///< rows of the present level that take part, by what they are
   std::vector<Sides> last_on_axis_;  ///< by axis: the last limit of each side
@@ -333,6 +356,7 @@ class BoundedProblem {
 
   // Of plain levels.
   std::vector<Room> room_;           ///< by axis
+  std::vector<int> later_limits_;    ///< of levels to come
   std::vector<int> limited_axes_;    ///< those with limits
   std::vector<int> pushing_;         ///< the limits that push
   std::vector<int> pushed_;          ///< those that pushed before the present level
@@ -341,7 +365,7 @@ class BoundedProblem {
   RowMajorMatrix free_factor_;  ///< of these: G, of G D G'
   Vector free_inverse_D_, free_work_, free_nu_;
   bool are_levels_plain_ = false;  ///< all of the last solution
-  bool is_limit_out_ = false;      ///< nothing moves along an axis that has a limit
+  bool is_axis_out_ = false;       ///< nothing moves along one of the axes
   QuadraticProgram program_;
 };
 

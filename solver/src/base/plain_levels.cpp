@@ -28,25 +28,39 @@ void BoundedProblem::start_room() noexcept {
   for (const int axis : limited_axes_) room_[static_cast<std::size_t>(axis)] = {};
   limited_axes_.clear();
   pushing_.clear();
+  later_limits_.assign(limits().begin(), limits().end());
 }
 
 /// From its level on a limit leaves an interval. Clear room is more than a tie:  b - s > tie |b|. False where
 /// a limit comes to one that pushes.
 bool BoundedProblem::allow(int level) noexcept {
-  for (const int i : limits_) {
+  std::size_t later = 0;
+  for (const int i : later_limits_) {
     const Entry& e = entry(i);
-    if (e.source->level != level || !entry(e.axis).reachable) continue;
+    if (e.source->level != level) {
+      later_limits_[later++] = i;
+      continue;
+    }
+    if (is_axis_out_ && !entry(e.axis).reachable) continue;
     Room& room = room_[axis_of(i)];
     if (!room.is_limited) limited_axes_.push_back(e.axis);
     room.is_limited = true;
-    const double side = e.source->kind == RowKind::upper ? 1.0 : -1.0;
-    End& end = side > 0.0 ? room.upper : room.lower;
-    if (end.pushes) return false;
-    const double least = d_(i) - side * tie * std::abs(d_(i));
-    const bool is_nearer = side * (end.least - least) > 0.0;
-    const bool is_clear = end.row < 0 || is_beyond(d_(end.row), d_(i), is_nearer ? side : -side);
-    end.is_tied = !is_clear || (end.is_tied && !is_nearer);
-    if (!is_nearer) continue;
+    const bool is_upper = e.source->kind == RowKind::upper;
+    if (!narrow(is_upper ? room.upper : room.lower, i, is_upper ? 1.0 : -1.0)) return false;
+  }
+  later_limits_.resize(later);
+  return true;
+}
+
+/// One more limit at an end. Mostly it is the first one there, or lies far beyond.
+inline bool BoundedProblem::narrow(End& end, int i, double side) noexcept {
+  if (end.pushes) return false;
+  const double rounding = tie * std::abs(d_(i)), least = d_(i) - side * rounding;
+  if (end.row >= 0 && side * (least - end.least) > 4.0 * rounding) return true;
+  const bool is_nearer = side * (end.least - least) > 0.0;
+  const bool is_clear = end.row < 0 || is_beyond(d_(end.row), d_(i), is_nearer ? side : -side);
+  end.is_tied = !is_clear || (end.is_tied && !is_nearer);
+  if (is_nearer) {
     end.least = least;
     end.row = i;
   }

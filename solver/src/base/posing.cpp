@@ -25,44 +25,30 @@ bool is_firm(const Row& row) {
 
 void BoundedProblem::resize(int rows) noexcept {
   rows_ = rows;
-  are_limits_posed_ = is_limit_out_ = false;
-  for (std::vector<int>* list : {&sums_, &drives_, &limits_, &levels_}) list->clear();
+  limit_count_ = 0;
+  last_level_ = -1;  // levels count from 0 on
+  are_limits_posed_ = is_axis_out_ = false;
+  for (std::vector<int>* list : {&sums_, &drives_, &levels_}) list->clear();
 }
 
 void BoundedProblem::set_row(int i, const Row& row, double d, const double* B, double least_square) noexcept {
   Entry& e = entry(i);
-  e.twin = -1;
+  e.twin = e.projected_at = -1;
   e.axis = i;
   last_on_axis_[static_cast<std::size_t>(i)] = {};
-  e.projected_at = -1;
   e.B = B;
   e.extent = extent_of(e.B);
   const double squared = dot(e.extent, e.B, e.B);
   e.length = std::sqrt(squared);
   e.inverse_length = squared > 0.0 ? e.length * (1.0 / squared) : 0.0;
   e.reachable = squared >= least_square && squared > 0.0;
+  is_axis_out_ = is_axis_out_ || !e.reachable;
   take_row(i, row, d);
 }
 
-void BoundedProblem::set_twin(int i, const Row& row, double d, int first) noexcept {
-  entry(i).twin = entry(i).axis = first;
-  take_row(i, row, d);
-}
-
-/// Limits are posed where a level does not leave all of them room.
-void BoundedProblem::take_row(int i, const Row& row, double d) noexcept {
-  Entry& e = entry(i);
-  d_(i) = d;
-  e.source = &row;
-  if (levels_.empty() || row.level != levels_.back()) note_level(row.level);
-  e.is_posed = !is_limit_kind(row.kind);
-  if (e.is_posed) {
-    take_source(i);
-    (row.kind == RowKind::sum ? sums_ : drives_).push_back(i);
-  } else {
-    limits_.push_back(i);
-    is_limit_out_ = is_limit_out_ || !entry(e.axis).reachable;
-  }
+void BoundedProblem::list_drive(int i) noexcept {
+  take_source(i);
+  (entry(i).kind == RowKind::sum ? sums_ : drives_).push_back(i);
 }
 
 /// All of an entry that its source says. A weight decides how much of b is worth reaching, R = 1/w;
@@ -137,7 +123,7 @@ void BoundedProblem::pose_limits() noexcept {
   are_limits_posed_ = true;
   awake_.clear();
   idle_.clear();
-  for (const int i : limits_) {
+  for (const int i : limits()) {
     if (can_be_idle(i) && is_beyond_another(i)) continue;
     if (!entry(i).is_posed) take_source(i);  // else it pushes already
     if (can_be_idle(i)) list_limit(i);
@@ -146,8 +132,9 @@ void BoundedProblem::pose_limits() noexcept {
 }
 
 void BoundedProblem::note_level(int level) noexcept {
-  const auto place = std::lower_bound(levels_.begin(), levels_.end(), level);
-  if (place == levels_.end() || *place != level) levels_.insert(place, level);
+  last_level_ = level;
+  if (std::find(levels_.begin(), levels_.end(), level) != levels_.end()) return;
+  levels_.insert(std::upper_bound(levels_.begin(), levels_.end(), level), level);
 }
 
 }  // namespace zwang::solver

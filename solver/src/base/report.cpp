@@ -55,7 +55,7 @@ void BoundedProblem::report() noexcept {
   for (const std::vector<int>* const rows : {&drives_, &sums_}) {
     for (const int i : *rows) report_row(i, motor_at_limit);
   }
-  if (are_levels_plain_ && !is_limit_out_) {
+  if (are_levels_plain_ && !is_axis_out_) {
     for (const int i : pushing_) report_row(i, motor_at_limit);
     return;
   }

@@ -1,6 +1,7 @@
 /// The measure of a constraint between two frames, as numbers: the coordinate, and the unit force along it.
 #pragma once
 
+#include "linear/pairs.hpp"
 #include "zwang/solver/constraint.hpp"
 
 namespace zwang::solver {
@@ -28,11 +29,18 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
   return in.body >= 0 && in.body == move.body;
 }
 
+inline bool is_same_rotation(const Matrix3& one, const Matrix3& other) noexcept {
+  const double *const a = one.data(), *const b = other.data();
+  const auto differs = (two(a) != two(b)) | (two(a + 2) != two(b + 2)) | (two(a + 4) != two(b + 4)) |
+                       (two(a + 6) != two(b + 6));
+  return ((differs[0] | differs[1]) == 0) & (a[8] == b[8]);
+}
+
 /// The twist of a frame on a body is ignored.
 inline bool is_same(const AttachedFrame& one, const AttachedFrame& other) noexcept {
   const bool moves = one.body < 0;
   return one.body == other.body && one.pose.position == other.pose.position &&
-         one.pose.rotation == other.pose.rotation &&
+         is_same_rotation(one.pose.rotation, other.pose.rotation) &&
          !(moves && (one.twist.linear != other.twist.linear || one.twist.angular != other.twist.angular));
 }
 
