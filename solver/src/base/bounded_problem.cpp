@@ -53,16 +53,18 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       limits_(static_cast<std::size_t>(rows)),
       last_on_axis_(static_cast<std::size_t>(rows)),
       nearest_(static_cast<std::size_t>(rows)),
+      rooms_(static_cast<std::size_t>(rows)),
+      first_room_(static_cast<std::size_t>(rows)),
       room_(static_cast<std::size_t>(rows)),
       parked_(static_cast<std::size_t>(rows)),
-      free_factor_(RowMajorMatrix::Zero(dimension, dimension)),
-      free_inverse_D_(Vector::Zero(dimension)),
-      free_work_(Vector::Zero(dimension)),
-      free_nu_(Vector::Zero(dimension)),
+      free_factor_(RowMajorMatrix::Zero(dimension + 1, dimension + 1)),
+      free_inverse_D_(Vector::Zero(dimension + 1)),
+      free_work_(Vector::Zero(dimension + 1)),
+      free_nu_(Vector::Zero(dimension + 1)),
       program_(2 * rows + motors, dimension, dimension + rows) {
   for (std::vector<int>* list :
-       {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &later_limits_, &levels_, &forces_,
-        &motions_, &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_})
+       {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &levels_, &forces_, &motions_,
+        &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_})
     list->reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));

@@ -167,6 +167,7 @@ class BoundedProblem {
     e.is_posed = false;
     if (row.kind == RowKind::upper || row.kind == RowKind::lower) {
       limits_[static_cast<std::size_t>(limit_count_++)] = i;
+      note_limit(i);
     } else {
       list_drive(i);
     }
@@ -205,7 +206,7 @@ class BoundedProblem {
     return side * (one - other) > tie * (std::abs(one) + std::abs(other));
   }
 
-  /// The nearest limit of one side of an axis, of the levels so far.
+  /// The nearest limit of one side of an axis.
   struct End {
     double least = 0.0;  ///< the acceleration that leaves it clear room
     int row = -1;
@@ -214,16 +215,18 @@ class BoundedProblem {
   };
   struct Room {
     End lower{.least = -infinity}, upper{.least = infinity};
-    bool is_limited = false;
+    int axis = -1, level = 0;
+    int other = -1;  ///< of the same axis at another level
   };
   enum class Change { none, some, unclear };
   void start_room() noexcept;
   bool allow(int level) noexcept;
-  bool narrow(End& end, int i, double side) noexcept;
+  void note_limit(int i) noexcept;
+  bool join(End& end, const End& other, double side) const noexcept;
   bool limits_have_room(const Vector& p) const noexcept;
   bool push_plainly(int level) noexcept;
   double parked_force(std::size_t k) noexcept;
-  bool park_beside_limit(int row) noexcept;
+  bool park_dependent(int k) noexcept;
   void list_free_rows() noexcept;
   bool factorise_plainly(int k) noexcept;
   Change drive_plainly() noexcept;
@@ -355,8 +358,10 @@ class BoundedProblem {
   std::vector<int> tied_;       ///< rows of the present stage whose multipliers are not unique
 
   // Of plain levels.
-  std::vector<Room> room_;           ///< by axis
-  std::vector<int> later_limits_;    ///< of levels to come
+  std::vector<Room> rooms_;  ///< by axis and level
+  int room_count_ = 0;
+  std::vector<int> first_room_;      ///< by axis
+  std::vector<Room> room_;           ///< by axis: of the levels so far
   std::vector<int> limited_axes_;    ///< those with limits
   std::vector<int> pushing_;         ///< the limits that push
   std::vector<int> pushed_;          ///< those that pushed before the present level

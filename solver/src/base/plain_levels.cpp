@@ -18,9 +18,8 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double ample_pivot = 1e-3;   // of a row, its share that the others leave: no step to refine
-constexpr double mostly_beside = 0.7;  // a cosine
-constexpr int most_rounds = 8;
+constexpr double ample_pivot = 1e-3;  // of a row, its share that the others leave: no step to refine
+constexpr int most_rounds = 10;
 
 }  // namespace
 
@@ -28,42 +27,55 @@ void BoundedProblem::start_room() noexcept {
   for (const int axis : limited_axes_) room_[static_cast<std::size_t>(axis)] = {};
   limited_axes_.clear();
   pushing_.clear();
-  later_limits_.assign(limits().begin(), limits().end());
 }
 
-/// From its level on a limit leaves an interval. Clear room is more than a tie:  b - s > tie |b|. False where
-/// a limit comes to one that pushes.
-bool BoundedProblem::allow(int level) noexcept {
-  std::size_t later = 0;
-  for (const int i : later_limits_) {
-    const Entry& e = entry(i);
-    if (e.source->level != level) {
-      later_limits_[later++] = i;
-      continue;
-    }
-    if (is_axis_out_ && !entry(e.axis).reachable) continue;
-    Room& room = room_[axis_of(i)];
-    if (!room.is_limited) limited_axes_.push_back(e.axis);
-    room.is_limited = true;
-    const bool is_upper = e.source->kind == RowKind::upper;
-    if (!narrow(is_upper ? room.upper : room.lower, i, is_upper ? 1.0 : -1.0)) return false;
+/// A limit leaves an interval along its axis. Clear room is more than a tie:  b - s > tie |b|.
+void BoundedProblem::note_limit(int i) noexcept {
+  const Row& row = *entry(i).source;
+  int& first = first_room_[axis_of(i)];
+  int k = first;
+  while (k >= 0 && rooms_[static_cast<std::size_t>(k)].level != row.level)
+    k = rooms_[static_cast<std::size_t>(k)].other;
+  if (k < 0) {
+    k = room_count_++;
+    rooms_[static_cast<std::size_t>(k)] = {.axis = entry(i).axis, .level = row.level, .other = first};
+    first = k;
   }
-  later_limits_.resize(later);
+  Room& room = rooms_[static_cast<std::size_t>(k)];
+  const bool is_upper = row.kind == RowKind::upper;
+  const double side = is_upper ? 1.0 : -1.0;
+  join(is_upper ? room.upper : room.lower, {d_(i) - side * tie * std::abs(d_(i)), i}, side);
+}
+
+/// The limits of one more level. False where one comes to a limit that pushes.
+bool BoundedProblem::allow(int level) noexcept {
+  for (int k = 0; k < room_count_; ++k) {
+    const Room& own = rooms_[static_cast<std::size_t>(k)];
+    if (own.level != level || !entry(own.axis).reachable) continue;
+    Room& room = room_[static_cast<std::size_t>(own.axis)];
+    if (room.axis < 0) limited_axes_.push_back(own.axis);
+    room.axis = own.axis;
+    if (!join(room.upper, own.upper, 1.0) || !join(room.lower, own.lower, -1.0)) return false;
+  }
   return true;
 }
 
 /// One more limit at an end. Mostly it is the first one there, or lies far beyond.
-inline bool BoundedProblem::narrow(End& end, int i, double side) noexcept {
+bool BoundedProblem::join(End& end, const End& other, double side) const noexcept {
+  if (other.row < 0) return true;
   if (end.pushes) return false;
-  const double rounding = tie * std::abs(d_(i)), least = d_(i) - side * rounding;
-  if (end.row >= 0 && side * (least - end.least) > 4.0 * rounding) return true;
-  const bool is_nearer = side * (end.least - least) > 0.0;
-  const bool is_clear = end.row < 0 || is_beyond(d_(end.row), d_(i), is_nearer ? side : -side);
-  end.is_tied = !is_clear || (end.is_tied && !is_nearer);
-  if (is_nearer) {
-    end.least = least;
-    end.row = i;
+  if (end.row >= 0) {
+    const double beyond = side * (other.least - end.least), rounding = tie * std::abs(d_(other.row));
+    if (beyond > 4.0 * rounding) return true;
+    const bool is_nearer = beyond < 0.0;
+    const bool is_clear = is_beyond(d_(end.row), d_(other.row), is_nearer ? side : -side);
+    end.is_tied = !is_clear || (is_nearer ? other.is_tied : end.is_tied);
+    if (!is_nearer) return true;
+  } else {
+    end.is_tied = other.is_tied;
   }
+  end.least = other.least;
+  end.row = other.row;
   return true;
 }
 
@@ -93,22 +105,35 @@ double BoundedProblem::parked_force(std::size_t k) noexcept {
   return parked_[k] > 0 ? e.hi : e.lo;
 }
 
-/// A driver that depends on a limit that pushes wants what that one forbids: it pushes with all its force.
-bool BoundedProblem::park_beside_limit(int row) noexcept {
-  const Entry& driver = entry(row);
-  const auto place = std::find(motions_.begin(), motions_.end(), row);
-  if (place == motions_.end()) return false;
-  const auto k = static_cast<std::size_t>(place - motions_.begin());
-  double most = mostly_beside;
-  for (const int i : pushing_) {
-    const Entry& e = entry(i);
-    const double cosine = dot(std::min(e.reach_extent, driver.reach_extent), e.V, driver.V) *
-                          e.inverse_reach * driver.inverse_reach;
-    if (std::abs(cosine) < most) continue;
-    most = std::abs(cosine);
-    parked_[k] = (cosine > 0.0) == (e.kind == RowKind::upper) ? 1 : -1;
+/// The k-th free row depends on those before, B_k = sum c_l B_l, as drivers do that want what a limit
+/// forbids. The limit pushes on, and the drivers against it, without any motion:  nu_k += t, nu_l -= c_l t.
+/// The driver that meets its bound first stands there. False where there is none.
+bool BoundedProblem::park_dependent(int k) noexcept {
+  double* const rate = free_work_.data();
+  for (int l = 0; l < k; ++l) rate[l] = -free_factor_(k, l);
+  for (int l = k - 1; l > 0; --l) add_multiple(l, -rate[l], &free_factor_(l, 0), rate);
+  rate[k] = 1.0;
+  int newest = -1;
+  for (int l = 0; l <= k && is_one_sided(free_rows_[static_cast<std::size_t>(l)]); ++l) newest = l;
+  if (newest < 0 || rate[newest] == 0.0) return false;
+  const bool is_upper = entry(free_rows_[static_cast<std::size_t>(newest)]).kind == RowKind::upper;
+  const double way = (rate[newest] > 0.0) == is_upper ? -1.0 : 1.0;
+  double least = infinity;
+  int first = -1;
+  bool goes_up = false;
+  for (int l = newest + 1; l <= k; ++l) {
+    const Entry& e = entry(free_rows_[static_cast<std::size_t>(l)]);
+    const double speed = way * rate[l] * e.inverse_reach;
+    const double room = speed > 0.0 ? e.hi - e.plain_nu : e.plain_nu - e.lo;
+    if (!(room < least * std::abs(speed))) continue;
+    least = room / std::abs(speed);
+    first = free_rows_[static_cast<std::size_t>(l)];
+    goes_up = speed > 0.0;
   }
-  return parked_[k] != 0 && parked_force(k) != 0.0;
+  if (first < 0) return false;
+  const auto place = std::find(motions_.begin(), motions_.end(), first) - motions_.begin();
+  parked_[static_cast<std::size_t>(place)] = goes_up ? 1 : -1;
+  return true;
 }
 
 /// Those of the limits that push come first. The forces of the others are added to work_.
@@ -135,8 +160,7 @@ BoundedProblem::Change BoundedProblem::drive_plainly() noexcept {
   double* const nu = free_nu_.data();
   for (int k = 0; k < n; ++k) {
     const int i = free_rows_[static_cast<std::size_t>(k)];
-    if (k == dimension_ || !factorise_plainly(k))
-      return park_beside_limit(i) ? Change::some : Change::unclear;
+    if (!factorise_plainly(k)) return park_dependent(k) ? Change::some : Change::unclear;
     nu[k] = (d_(i) - along(i, work_)) * entry(i).inverse_reach;
   }
   substitute(free_factor_, free_inverse_D_, n, nu);
@@ -184,7 +208,7 @@ BoundedProblem::Change BoundedProblem::change_drivers() noexcept {
   return change;
 }
 
-/// Limits that would have to pull, and those that have no room.
+/// Limits that would have to pull, and the one that is farthest from having room.
 BoundedProblem::Change BoundedProblem::change_limits(int level) noexcept {
   Change change = Change::none;
   std::size_t kept = 0;
@@ -202,17 +226,21 @@ BoundedProblem::Change BoundedProblem::change_limits(int level) noexcept {
     change = Change::some;
   }
   pushing_.resize(kept);
+  End* farthest = nullptr;
+  double most = -1.0;
   for (const int axis : limited_axes_) {
     Room& room = room_[static_cast<std::size_t>(axis)];
     const double s = along(axis, work_);
-    End* const end = !room.upper.pushes && !(s < room.upper.least)   ? &room.upper
-                     : !room.lower.pushes && !(s > room.lower.least) ? &room.lower
-                                                                     : nullptr;
-    if (end == nullptr) continue;
-    if (!let_push(*end, level)) return Change::unclear;
-    change = Change::some;
+    const bool is_above = !room.upper.pushes && !(s < room.upper.least);
+    if (!is_above && (room.lower.pushes || s > room.lower.least)) continue;
+    const double beyond =
+        (is_above ? s - room.upper.least : room.lower.least - s) * entry(axis).inverse_length;
+    if (beyond <= most) continue;
+    most = beyond;
+    farthest = is_above ? &room.upper : &room.lower;
   }
-  return change;
+  if (farthest == nullptr) return change;
+  return let_push(*farthest, level) ? Change::some : Change::unclear;
 }
 
 bool BoundedProblem::let_push(End& end, int level) noexcept {
@@ -221,6 +249,7 @@ bool BoundedProblem::let_push(End& end, int level) noexcept {
   Entry& e = entry(i);
   if (!e.is_posed) take_source(i);
   if (e.softness > 0.0) return false;
+  e.plain_nu = 0.0;
   bound(i);
   project_row(i, level);
   end.pushes = true;
@@ -231,7 +260,10 @@ bool BoundedProblem::let_push(End& end, int level) noexcept {
 /// The motion of the level into work_, and each row's force.
 bool BoundedProblem::find_plain_motion(int level, int max_rounds) noexcept {
   std::fill_n(parked_.begin(), motions_.size(), static_cast<signed char>(0));
-  for (const int i : motions_) bound(i);
+  for (const int i : motions_) {
+    bound(i);
+    entry(i).plain_nu = 0.0;
+  }
   for (int round = 0; round < std::min(max_rounds, most_rounds); ++round) {
     ++iterations_;
     Change change = drive_plainly();

@@ -25,7 +25,7 @@ bool is_firm(const Row& row) {
 
 void BoundedProblem::resize(int rows) noexcept {
   rows_ = rows;
-  limit_count_ = 0;
+  limit_count_ = room_count_ = 0;
   last_level_ = -1;  // levels count from 0 on
   are_limits_posed_ = is_axis_out_ = false;
   for (std::vector<int>* list : {&sums_, &drives_, &levels_}) list->clear();
@@ -36,6 +36,7 @@ void BoundedProblem::set_row(int i, const Row& row, double d, const double* B, d
   e.twin = e.projected_at = -1;
   e.axis = i;
   last_on_axis_[static_cast<std::size_t>(i)] = {};
+  first_room_[static_cast<std::size_t>(i)] = -1;
   e.B = B;
   e.extent = extent_of(e.B);
   const double squared = dot(e.extent, e.B, e.B);

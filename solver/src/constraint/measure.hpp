@@ -29,19 +29,20 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
   return in.body >= 0 && in.body == move.body;
 }
 
-inline bool is_same_rotation(const Matrix3& one, const Matrix3& other) noexcept {
-  const double *const a = one.data(), *const b = other.data();
-  const auto differs = (two(a) != two(b)) | (two(a + 2) != two(b + 2)) | (two(a + 4) != two(b + 4)) |
-                       (two(a + 6) != two(b + 6));
-  return ((differs[0] | differs[1]) == 0) & (a[8] == b[8]);
+static_assert(sizeof(Pose) == 12 * sizeof(double) && sizeof(MotionVector) == 6 * sizeof(double));
+
+/// Number by number, for an even count of them.
+template <int count>
+bool is_same(const double* a, const double* b) noexcept {
+  auto differs = two(a) != two(b);
+  for (int k = 2; k < count; k += 2) differs |= two(a + k) != two(b + k);
+  return (differs[0] | differs[1]) == 0;
 }
 
 /// The twist of a frame on a body is ignored.
 inline bool is_same(const AttachedFrame& one, const AttachedFrame& other) noexcept {
-  const bool moves = one.body < 0;
-  return one.body == other.body && one.pose.position == other.pose.position &&
-         is_same_rotation(one.pose.rotation, other.pose.rotation) &&
-         !(moves && (one.twist.linear != other.twist.linear || one.twist.angular != other.twist.angular));
+  return one.body == other.body && is_same<12>(one.pose.rotation.data(), other.pose.rotation.data()) &&
+         (one.body >= 0 || is_same<6>(one.twist.angular.data(), other.twist.angular.data()));
 }
 
 /// Whether two constraints measure the same axis of the same frames.
