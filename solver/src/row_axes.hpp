@@ -18,6 +18,11 @@ inline bool has_same_axis(const Row& one, const Row& other) {
          (one.reference_body < 0 || is_same(one.a_reference, other.a_reference));
 }
 
+/// All rows of a constraint act along its axis.
+inline bool is_of_same_constraint(const Row& one, const Row& other) {
+  return one.constraint >= 0 && one.constraint == other.constraint;
+}
+
 /// One number to tell axes by: equal for equal ones, and for few others.
 inline double key_of(const Row& row) {
   const double* const a = row.a.angular.data();
@@ -27,8 +32,8 @@ inline double key_of(const Row& row) {
 
 /// Whether its numbers are valid, whatever its axis is.
 inline bool has_valid_numbers(const Row& row) {
-  return row.b * 0.0 + row.force * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
-         row.hi >= 0.0;  // false for NaN, too
+  const bool is_finite = row.b * 0.0 + row.force * 0.0 == 0.0;
+  return is_finite & (row.weight > 0.0) & (row.lo <= 0.0) & (row.hi >= 0.0);  // false for NaN, too
 }
 
 }  // namespace zwang::solver

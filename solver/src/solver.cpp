@@ -102,39 +102,49 @@ struct Solver::Workspace {
     for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
   }
 
-  /// The rows of all sets, one after the other. False when they do not fit.
-  bool take_rows(std::span<const RowSet> sets) noexcept {
-    rows.clear();
+  bool fit(std::span<const RowSet> sets) const noexcept {
+    std::size_t all = 0;
     for (const RowSet& set : sets) {
       const std::size_t count = set.rows->size();
-      if (count > static_cast<std::size_t>(set_capacity(settings)) || rows.size() + count > rows.capacity())
-        return false;
-      for (const Row& row : *set.rows) rows.push_back(&row);
+      if (count > static_cast<std::size_t>(set_capacity(settings))) return false;
+      all += count;
     }
-    return true;
+    return all <= rows.capacity();
   }
 
-  /// Which rows share an axis; not ok where one is not what a row has to be.
-  Status find_axes() noexcept {
+  /// The rows of all sets, one after the other, and which of them share an axis. Not ok where one is not what
+  /// a row has to be.
+  Status take_rows(std::span<const RowSet> sets) noexcept {
     axis_count = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Row& row = *rows[i];
-      if (!has_valid_numbers(row)) return Status::invalid_input;
-      if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
-        return Status::wrong_size;
+    rows.clear();
+    for (const RowSet& set : sets) {
+      const Row* before = nullptr;
+      for (const Row& row : *set.rows) {
+        if (!has_valid_numbers(row)) return Status::invalid_input;
+        const std::size_t i = rows.size();
+        rows.push_back(&row);
+        if (before != nullptr && is_of_same_constraint(row, *before)) {  // as the other end of a range is
+          twins[i] = twins[i - 1] < 0 ? static_cast<int>(i) - 1 : twins[i - 1];
+        } else if (const Status status = find_axis(i); status != Status::ok) {
+          return status;
+        }
+        before = &row;
       }
-      first_here[i] = -1;
-      if (i > 0 && has_same_axis(row, *rows[i - 1])) {  // as the other end of a range has
-        twins[i] = twins[i - 1] < 0 ? static_cast<int>(i) - 1 : twins[i - 1];
-        continue;
-      }
-      const double key = key_of(row);
-      twins[i] = twin_of(row, key);
-      if (twins[i] >= 0) continue;
-      if (!has_finite_axis(row)) return Status::invalid_input;
-      keys[axis_count] = key;
-      axes[axis_count++] = static_cast<int>(i);
     }
+    return Status::ok;
+  }
+
+  Status find_axis(std::size_t i) noexcept {
+    const Row& row = *rows[i];
+    if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model)))
+      return Status::wrong_size;
+    const double key = key_of(row);
+    twins[i] = twin_of(row, key);
+    if (twins[i] >= 0) return Status::ok;
+    if (!has_finite_axis(row)) return Status::invalid_input;
+    first_here[i] = -1;
+    keys[axis_count] = key;
+    axes[axis_count++] = static_cast<int>(i);
     return Status::ok;
   }
 
@@ -202,13 +212,12 @@ struct Solver::Workspace {
       if (is_of_another_set) {
         first = begin + i;
         const int id = ids[at];
-        problem.set_row(i, *rows[at], whitened.B(id), whitened.least_square(id));
-        free_acceleration(begin + i) = whitened.acceleration(id);
+        const double free = free_acceleration(begin + i) = whitened.acceleration(id);
+        problem.set_row(i, *rows[at], rows[at]->b - free, whitened.B(id), whitened.least_square(id));
       } else {
-        problem.set_twin(i, *rows[at], first - begin);
-        free_acceleration(begin + i) = free_acceleration(first);
+        const double free = free_acceleration(begin + i) = free_acceleration(first);
+        problem.set_twin(i, *rows[at], rows[at]->b - free, first - begin);
       }
-      problem.d(i) = rows[at]->b - free_acceleration(begin + i);
     }
   }
 
@@ -233,9 +242,9 @@ struct Solver::Workspace {
       const auto count = static_cast<int>(sets[k].rows->size());
       end -= count;
       pose_problem(end, count);
-      exact = problem.solve(settings.max_iterations) && exact;
+      const std::span solutions(row_solutions.data() + end, static_cast<std::size_t>(count));
+      exact = problem.solve(settings.max_iterations, solutions) && exact;
       take_share(sets[k].share);
-      std::copy(problem.rows().begin(), problem.rows().end(), row_solutions.begin() + end);
       iterations += problem.iterations();
     }
     if (sets.size() > 1) find_residuals();
@@ -303,9 +312,10 @@ Status Solver::solve(const State& state, std::span<const RowSet> sets, Solution&
       solution.acceleration.size() != static_cast<std::size_t>(w.model.body_count())) {
     return Status::wrong_size;
   }
-  if (!w.take_rows(sets) || w.rows.size() > solution.rows.capacity()) return Status::capacity_exceeded;
+  if (!w.fit(sets)) return Status::capacity_exceeded;
   if (!is_finite(state)) return Status::invalid_input;
-  if (const Status status = w.find_axes(); status != Status::ok) return status;
+  if (const Status status = w.take_rows(sets); status != Status::ok) return status;
+  if (w.rows.size() > solution.rows.capacity()) return Status::capacity_exceeded;
 
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);

@@ -117,19 +117,15 @@ void BlindMotion::keep_in_travel(Eigen::VectorXd& y) const noexcept {
   }
 }
 
-void BlindMotion::expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
-                         const Eigen::VectorXd& sent, const solver::State& state) noexcept {
-  if (is_empty_) return;
-  find_weights(state);
-  const solver::FreeMotions& motions = model.motions();
+/// They stay while no mass moves in the base's axes, as on a base of round wheels.
+void BlindMotion::take_motions(const solver::FreeMotions& motions) noexcept {
+  if (factorisation_ == motions.factorisation && m_ == motions.count) return;
+  factorisation_ = motions.factorisation;
   m_ = motions.count;
   const auto n = static_cast<Eigen::Index>(joints_.size());
   B_.leftCols(m_) = motions.base.leftCols(m_);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const DrivenJoint& driven = joints_[static_cast<std::size_t>(i)];
-    T_.row(i).head(m_) = motions.joint.row(driven.joint).head(m_);
-    expected_(i) = model.expected()(driven.joint);
-  }
+  for (Eigen::Index i = 0; i < n; ++i)
+    T_.row(i).head(m_) = motions.joint.row(joints_[static_cast<std::size_t>(i)].joint).head(m_);
   for (int a = 0; a < m_; ++a) {
     for (int row = 0; row < 3; ++row) C_turned_(a, row) = B_(row, a);
     for (std::size_t i = 0; i < arm_.size(); ++i)
@@ -137,6 +133,16 @@ void BlindMotion::expect(const DisturbanceObserver& model, const Eigen::VectorXd
   }
   T_factor_.factorise(T_, n, m_);
   C_factor_.factorise(C_turned_, m_, C_turned_.cols());
+}
+
+void BlindMotion::expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
+                         const Eigen::VectorXd& sent, const solver::State& state) noexcept {
+  if (is_empty_) return;
+  find_weights(state);
+  take_motions(model.motions());
+  const auto n = static_cast<Eigen::Index>(joints_.size());
+  for (Eigen::Index i = 0; i < n; ++i)
+    expected_(i) = model.expected()(joints_[static_cast<std::size_t>(i)].joint);
   to_motions(expected_, a_);
   bool is_told = false;
   lost_.head(m_).setZero();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -77,11 +78,13 @@ class BlindMotion {
 
  private:
   void find_weights(const solver::State& state) noexcept;
+  void take_motions(const solver::FreeMotions& motions) noexcept;
   std::vector<DrivenJoint> joints_;
   Part part_;
   bool is_empty_ = true;
   std::vector<std::size_t> arm_;  ///< of `joints_`: those that carry no wheel
   int m_ = 0;
+  std::uint64_t factorisation_ = 0;  ///< of the solver, to which the matrices belong
   Eigen::MatrixXd T_, B_, C_turned_, T_wheels_turned_;
   NormalEquations T_factor_, C_factor_, wheel_factor_;
   Eigen::VectorXd a_, lost_, right_, expected_, torques_;

@@ -17,6 +17,11 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     for (const solver::Row& asked : blend->sets()[set].constraints.rows()) {
       if (row == solution.rows.size()) return;
       const solver::RowSolution& answer = solution.rows[row];
+      const bool is_limit = asked.kind == solver::RowKind::upper || asked.kind == solver::RowKind::lower;
+      if (is_limit && answer.residual == 0.0) {  // it tells nothing
+        ++row;
+        continue;
+      }
       ActiveAxis* axis = sources[first_source + static_cast<std::size_t>(asked.constraint)];
       if (axis != nullptr) read_row(set, asked, answer, *axis);
       const bool drives = asked.kind == solver::RowKind::driver && set == 0;

@@ -30,6 +30,23 @@ constexpr double broken = 1.0 + 1e-9;  // of what a side allows
 constexpr double near = 0.8;           // the same: comes into force with one that is broken
 constexpr double let_go = 0.7;         // the same: goes out of force
 
+/// A bound of the share that any side takes, whatever its direction n. With the least eigenvalue w of W:
+///   |a_n| <= |a|        |S_n| <= |(S_x W_xx, S_y W_yy)| / w
+double most_share(const solver::AxisConstraint& side, const PlaneReading& r) {
+  double share = 0.0;
+  if (side.acceleration)
+    share = std::sqrt(r.acceleration[0] * r.acceleration[0] + r.acceleration[1] * r.acceleration[1]) /
+            side.acceleration->high;
+  if (side.force) {
+    const double mean = 0.5 * (r.W_xx + r.W_yy), half = 0.5 * (r.W_xx - r.W_yy);
+    const double least = mean - std::sqrt(half * half + r.W_xy * r.W_xy);
+    const double x = r.press[0] * r.W_xx, y = r.press[1] * r.W_yy;
+    if (!(least > 0.0)) return solver::infinity;
+    share = std::max(share, std::sqrt(x * x + y * y) / (least * side.force->high));
+  }
+  return share;
+}
+
 /// 0 and 1: the sides that are always in force; -1: another one.
 int place_of(const solver::AxisConstraint& c, int part) {
   if (c.measure != solver::Measure::side) return -1;
@@ -96,12 +113,14 @@ void Scheduler::Parts::read_planes(const solver::Solution& solution) noexcept {
   std::size_t row = 0;
   for (std::size_t set = 0; set < blend->sets().size(); ++set) {
     const BlendedSet& blended = blend->sets()[set];
+    int before = -1, place = -1;
     for (const solver::Row& asked : blended.constraints.rows()) {
       if (row == solution.rows.size()) return;
       const solver::RowSolution& answer = solution.rows[row];
       const auto i = static_cast<std::size_t>(asked.constraint);
       const Origin& origin = blended.in_force[i].origin;
-      const int place = place_of(blended.constraints.constraints()[i], origin.part);
+      if (asked.constraint != before) place = place_of(blended.constraints.constraints()[i], origin.part);
+      before = asked.constraint;
       const auto at = static_cast<std::size_t>(place);
       if (place >= 0 && blended.in_force[i].active) {
         PlaneReading& reading = plane_readings[static_cast<std::size_t>(
@@ -138,7 +157,8 @@ bool Scheduler::Parts::choose_sides(const ActiveAxis& a, const PlaneReading& rea
   const auto side = [&](int i) -> Wanted& { return wanted[a.wanted + 1 + static_cast<std::size_t>(i)]; };
   std::array<double, PlaneNorm::most_sides> shares{};
   bool is_broken = false;
-  for (int i = 0; i < PlaneNorm::most_sides; ++i) {
+  const bool is_calm = most_share(side(0).constraint, reading) < let_go;
+  for (int i = 0; i < PlaneNorm::most_sides && !is_calm; ++i) {
     double& share = shares[static_cast<std::size_t>(i)];
     share = share_of_side(side(i).constraint, reading);
     is_broken = is_broken || (side(i).far && share > broken);

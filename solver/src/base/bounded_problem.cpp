@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/whitened_rows.hpp"
 
@@ -10,7 +9,6 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr int no_level = std::numeric_limits<int>::max();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
@@ -34,7 +32,6 @@ double authority(Quantity quantity) {
 
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
     : V_(RowMajorMatrix::Zero(rows, dimension)),
-      P_(RowMajorMatrix::Zero(rows, dimension)),
       T_(static_cast<std::size_t>(motors)),
       d_(Vector::Zero(rows)),
       tau_(Vector::Zero(motors)),
@@ -49,25 +46,27 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       fixed_(Vector::Zero(dimension)),
       work_(Vector::Zero(dimension)),
       solved_(Vector::Zero(dimension)),
-      F_(RowMajorMatrix::Zero(dimension, dimension)),
       frozen_(RowMajorMatrix::Zero(dimension, dimension)),
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
       inverse_pivots_(Vector::Zero(dimension)),
       entries_(static_cast<std::size_t>(rows)),
-      solutions_(static_cast<std::size_t>(rows)),
+      limits_(static_cast<std::size_t>(rows)),
       last_on_axis_(static_cast<std::size_t>(rows)),
       nearest_(static_cast<std::size_t>(rows)),
+      rooms_(static_cast<std::size_t>(rows)),
+      first_room_(static_cast<std::size_t>(rows)),
+      room_(static_cast<std::size_t>(rows)),
+      parked_(static_cast<std::size_t>(rows)),
+      free_factor_(RowMajorMatrix::Zero(dimension + 1, dimension + 1)),
+      free_inverse_D_(Vector::Zero(dimension + 1)),
+      free_work_(Vector::Zero(dimension + 1)),
+      free_nu_(Vector::Zero(dimension + 1)),
       program_(2 * rows + motors, dimension, dimension + rows) {
-  posed_.reserve(static_cast<std::size_t>(rows));
-  folded_.reserve(static_cast<std::size_t>(rows));
-  waiting_.reserve(static_cast<std::size_t>(rows));
-  awake_.reserve(static_cast<std::size_t>(rows));
-  idle_.reserve(static_cast<std::size_t>(rows));
-  sums_.reserve(static_cast<std::size_t>(rows));
-  for (std::vector<int>* of_level : {&forces_, &motions_, &limits_above_})
-    of_level->reserve(static_cast<std::size_t>(rows));
+  for (std::vector<int>* list :
+       {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &levels_, &forces_, &motions_,
+        &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_})
+    list->reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
-  tied_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));
   shared_motors_.reserve(static_cast<std::size_t>(motors));
 }
@@ -77,51 +76,6 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, const double* B, double least_square) noexcept {
-  Entry& e = entry(i);
-  e.twin = -1;
-  e.axis = i;
-  last_on_axis_[static_cast<std::size_t>(i)] = {};
-  e.B = B;
-  e.extent = extent_of(e.B);
-  const double squared = dot(e.extent, e.B, e.B);
-  e.length = std::sqrt(squared);
-  e.inverse_length = squared > 0.0 ? e.length * (1.0 / squared) : 0.0;
-  e.reachable = squared >= least_square && squared > 0.0;
-  take_source(e, row);
-}
-
-void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
-  Entry& e = entry(i);
-  const Entry& other = entry(twin);
-  e.twin = e.axis = twin;
-  e.B = other.B;
-  e.extent = other.extent;
-  e.length = other.length;
-  e.inverse_length = other.inverse_length;
-  e.reachable = other.reachable;
-  take_source(e, row);
-}
-
-/// All that set_row and set_twin have not set. A weight decides how much of b is worth reaching, R = 1/w;
-/// what was reached is kept firmly against the levels below.
-void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
-  e.reset();
-  e.kind = row.kind;
-  e.is_limit = row.kind == RowKind::upper || row.kind == RowKind::lower;
-  e.quantity = row.quantity;
-  e.level = row.level;
-  e.lo = row.lo;
-  e.hi = row.hi;
-  e.bounded_below = std::isfinite(row.lo);
-  e.bounded_above = std::isfinite(row.hi);
-  const bool is_motion = e.is_limit || e.kind == RowKind::driver;
-  e.softness = is_motion && std::isfinite(row.weight) ? 1.0 / row.weight : 0.0;
-  e.force = row.force;
-  e.out = !e.reachable;
-  e.status = e.out ? RowStatus::unreachable : RowStatus::held;
-}
-
 void BoundedProblem::limit_motor(int motor, double lowest, double highest) noexcept {
   tau_lo_(motor) = lowest;
   tau_hi_(motor) = highest;
@@ -129,17 +83,21 @@ void BoundedProblem::limit_motor(int motor, double lowest, double highest) noexc
   tau_slack_(motor) = std::isfinite(slack) ? slack : 0.0;
 }
 
-bool BoundedProblem::solve(int max_iterations) noexcept {
+bool BoundedProblem::solve(int max_iterations, std::span<RowSolution> solutions) noexcept {
+  solutions_ = solutions;
   iterations_ = 0;
   motors_drive_all_ = motors_reach_all_;
   for (int j = 0; j < motors_; ++j)
     motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);
-  find_idle_limits();
   bound_rows();
   bool exact = true;
   if (!solve_levels(max_iterations, exact)) {
-    wake_idle_limits(first_level());
-    for (Entry& e : entries_) e.nu = e.phi = e.offset = 0.0;
+    wake_idle_limits(levels_.front());
+    are_levels_plain_ = false;
+    for (Entry& e : entries_) {
+      e.nu = e.phi = e.offset = 0.0;
+      e.projected_at = -1;
+    }
     solve_levels(max_iterations, exact);
   }
   exact = least_torques(max_iterations) && exact;
@@ -147,29 +105,29 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
   return exact;
 }
 
-/// The levels as a table of contents. False when an idle limit would have had to push.
+/// The levels as a table of contents. From the first level on that is not plain, stages solve them. False
+/// when an idle limit would have had to push.
 bool BoundedProblem::solve_levels(int max_iterations, bool& exact) noexcept {
   frozen_count_ = 0;
-  all_free_ = true;
   p_.head(dimension_).setZero();
   tau_.head(motors_).setZero();
   torques_are_least_ = true;
   exact = true;
-  for (int level = first_level(); level != no_level; level = next_level_) {
-    project_rows(level);
+  are_levels_plain_ = motors_drive_all_;
+  start_room();
+  for (const int level : levels_) {
     start_sums(level);
-    exact = solve_forces(level, max_iterations) && exact;
-    exact = solve_motion(level, max_iterations) && exact;
-    if (!idle_limits_rest(level)) return false;
-    if (next_level_ != no_level) freeze(level);
+    are_levels_plain_ = are_levels_plain_ && solve_plainly(level, max_iterations);
+    if (!are_levels_plain_) {
+      pose_limits();
+      project_rows(level);
+      exact = solve_forces(level, max_iterations) && exact;
+      exact = solve_motion(level, max_iterations) && exact;
+      if (!idle_limits_rest(level)) return false;
+    }
+    if (level != levels_.back()) freeze(level);
   }
   return true;
-}
-
-int BoundedProblem::first_level() const noexcept {
-  int first = no_level;
-  for (const int i : awake_) first = std::min(first, entries_[static_cast<std::size_t>(i)].level);
-  return first;
 }
 
 /// Torques of least norm for p = T'tau. T is nearly a triangle: the dimensions of joints that carry no wheels
@@ -246,6 +204,7 @@ int BoundedProblem::extent_of(const double* x) const noexcept {
 /// are to be known beforehand.
 void BoundedProblem::bound_rows() noexcept {
   if (motors_drive_all_) return;
+  pose_limits();
   for (const int i : awake_) bound(i);
 }
 
@@ -260,6 +219,7 @@ void BoundedProblem::bound_row(int i) noexcept {
   if (force == 0.0) {
     e.out = true;
     e.status = RowStatus::unreachable;
+    is_axis_out_ = true;
   }
   if (e.out || e.kind == RowKind::force) return;
   if (!std::isfinite(force)) force = 1e7 * largest_demand() / e.length;
@@ -291,19 +251,15 @@ double BoundedProblem::largest_force(int i) noexcept {
   return length > 0.0 ? sum / (length * length) : 0.0;
 }
 
-/// V_i = F'B_i and P_i = F V_i = K B_i, for the rows of a level that take part and for the limits above. They
-/// are the rows as the levels above let them act.
+/// V_i = K B_i for the rows of a level that take part and for the limits above: the rows as the levels above
+/// let them act.
 void BoundedProblem::project_rows(int level) noexcept {
   forces_.clear();
   motions_.clear();
   limits_above_.clear();
-  next_level_ = no_level;
   for (const int i : awake_) {
     const Entry& e = entry(i);
-    if (e.level > level) {
-      next_level_ = std::min(next_level_, e.level);
-      continue;
-    }
+    if (e.level > level) continue;
     const bool is_above = e.level < level;
     if (e.out || (is_above && !e.is_limit)) continue;
     project_row(i, level);
@@ -314,19 +270,20 @@ void BoundedProblem::project_rows(int level) noexcept {
 
 void BoundedProblem::project_row(int i, int level) noexcept {
   Entry& e = entry(i);
+  if (e.projected_at == level) return;
   e.projected_at = level;
-  if (all_free_) {
+  if (frozen_count_ == 0) {
     e.blocked = false;
-    e.V = e.P = e.B;
+    e.V = e.B;
     e.reach_extent = e.extent;
     e.reach = e.length;
     e.inverse_reach = e.inverse_length;
     return;
   }
-  if (e.twin >= 0 && entry(e.twin).projected_at == level) {
+  if (e.twin >= 0) {
+    project_row(e.twin, level);
     const Entry& twin = entry(e.twin);
     e.V = twin.V;
-    e.P = twin.P;
     e.reach_extent = twin.reach_extent;
     e.reach = twin.reach;
     e.inverse_reach = twin.inverse_reach;
@@ -334,47 +291,48 @@ void BoundedProblem::project_row(int i, int level) noexcept {
     return;
   }
   double* const V = &V_(i, 0);
-  double* const P = &P_(i, 0);
   e.V = V;
-  e.P = P;
   e.reach_extent = dimension_;
-  std::fill_n(V, dimension_, 0.0);
-  for (int k = 0; k < e.extent; ++k) add_multiple(dimension_, e.B[k], &F_(k, 0), V);
+  solver::copy(e.extent, e.B, V);
+  set_zero(dimension_ - e.extent, V + e.extent);
+  take_out_frozen(V);
   const double squared = dot(dimension_, V, V);
   const bool blocked = squared <= blocked_share * e.length * e.length;
   if (e.level == level) e.blocked = blocked;
   e.reach = blocked ? 0.0 : std::sqrt(squared);
   e.inverse_reach = blocked ? 0.0 : 1.0 / e.reach;
-  for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
+  if (blocked) set_zero(dimension_, V);
+}
+
+/// x := K x,  K = 1 - sum q q' over the frozen directions q. Twice: rounding of the first pass goes with the
+/// second.
+void BoundedProblem::take_out_frozen(double* x) const noexcept {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int c = 0; c < frozen_count_; ++c) {
+      const double* const q = &frozen_(c, 0);
+      add_multiple(dimension_, -dot(dimension_, q, x), q, x);
+    }
+  }
 }
 
 /// The result of the level's equality and force rows, saturated or not, stays for the levels below:
 /// B_i.dp = 0 with mu free. From then on a force w moves the robot by K w, and one more row closes its
 /// direction:
 ///
-///   K := K - K B B'K / B'K B = F (1 - v v' / v.v) F',   v = F'B
+///   K := K - K B B'K / B'K B,   K = 1 - sum q q',   q = K B / |K B|
 void BoundedProblem::freeze(int level) noexcept {
-  double* const v = solved_.data();
-  double* const Fv = work_.data();
-  for (const int i : awake_) {
+  for (const int i : drives_) {
     const Entry& e = entry(i);
-    if (e.level != level || is_one_sided(i) || e.kind == RowKind::sum || !takes_part(i)) continue;
+    if (e.level != level || !takes_part(i)) continue;
     if (frozen_count_ == dimension_) return;
-    if (all_free_) F_.topLeftCorner(dimension_, dimension_).setIdentity();
-    all_free_ = false;
-    std::fill_n(v, dimension_, 0.0);
-    for (int k = 0; k < e.extent; ++k) add_multiple(dimension_, e.B[k], &F_(k, 0), v);
-    for (int c = 0; c < frozen_count_; ++c) {
-      add_multiple(dimension_, -dot(dimension_, &frozen_(c, 0), v), &frozen_(c, 0), v);
-    }
-    const double left = dot(dimension_, v, v);
+    double* const q = &frozen_(frozen_count_, 0);
+    solver::copy(e.extent, e.B, q);
+    set_zero(dimension_ - e.extent, q + e.extent);
+    take_out_frozen(q);
+    const double left = dot(dimension_, q, q);
     if (left <= dependent_share * e.length * e.length) continue;
-    double* const frozen = &frozen_(frozen_count_++, 0);
-    std::fill_n(frozen, dimension_, 0.0);
-    add_multiple(dimension_, 1.0 / std::sqrt(left), v, frozen);
-    const double share = 1.0 / left;
-    for (int k = 0; k < dimension_; ++k) Fv[k] = share * dot(dimension_, &F_(k, 0), v);
-    for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, -Fv[k], v, &F_(k, 0));
+    scaled_copy(dimension_, 1.0 / std::sqrt(left), q, q);
+    ++frozen_count_;
   }
 }
 

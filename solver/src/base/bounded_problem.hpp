@@ -46,19 +46,21 @@ class BoundedProblem {
   void factorise_motors() noexcept;
   void limit_motor(int motor, double lowest, double highest) noexcept;
 
-  void resize(int rows) noexcept { rows_ = rows; }
-  double& d(int row) noexcept { return d_(row); }
-  /// B stays where it is until the next problem. With |B|^2 below `least_square`, nothing moves along the
-  /// row.
-  void set_row(int row, const Row& source, const double* B, double least_square) noexcept;
-  /// A row with the same B as an earlier one.
-  void set_twin(int row, const Row& source, int twin) noexcept;
-  /// False when an active set met its iteration cap; all results stay inside their bounds.
-  bool solve(int max_iterations) noexcept;
-
-  std::span<const RowSolution> rows() const noexcept {
-    return {solutions_.data(), static_cast<std::size_t>(rows_)};
+  /// The rows follow one after the other, each with its d = b - g. They stay where they are, and so does B,
+  /// until the next problem.
+  void resize(int rows) noexcept;
+  /// With |B|^2 below `least_square`, nothing moves along the row.
+  void set_row(int row, const Row& source, double d, const double* B, double least_square) noexcept;
+  /// A row with the same B as an earlier one, the first of these.
+  void set_twin(int row, const Row& source, double d, int first) noexcept {
+    Entry& e = entry(row);
+    e.twin = e.axis = first;
+    take_row(row, source, d);
   }
+  /// Writes the rows' solutions, which stay where they are until the next problem. False when an active set
+  /// met its iteration cap; all results stay inside their bounds.
+  bool solve(int max_iterations, std::span<RowSolution> solutions) noexcept;
+
   double tau(int motor) const noexcept { return tau_(motor); }
   /// The force of the torques on the motions, T'tau.
   const double* p() const noexcept { return p_.data(); }
@@ -70,18 +72,17 @@ class BoundedProblem {
   struct Standing {
     double reach = 0.0;  ///< |V_i|, at the present level
     double inverse_reach = 0.0;
-    const double* V = nullptr;    ///< B_i F: the row in the metric that the levels above leave
-    const double* P = nullptr;    ///< B_i K: the motion that a unit force along the row makes
+    /// K B_i: what the levels above leave of the row, and the motion that a unit force along it makes
+    const double* V = nullptr;
     double largest_force = -1.0;  ///< that the motors make along the row; negative before it is known
     double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
     double nu = 0.0, phi = 0.0;
-    double reached = 0.0;        ///< of the first row on an axis: B_i.p of the solution
-    int reach_extent = 0;        ///< of V_i and P_i
-    int projected_at = -1;       ///< level of V_i and P_i
+    double plain_nu = 0.0;       ///< nu, while a plain level is sought
+    int reach_extent = 0;        ///< of V_i
+    int projected_at = -1;       ///< level of V_i
     int limit_before = -1;       ///< on the same side of the same axis
     bool has_bounds = false;     ///< lo and hi are finite, but on a sum
-    bool is_idle = false;        ///< a limit that has nothing to do beside another one of its level
     bool blocked = false;        ///< the levels above leave it no freedom
     bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
     bool sum_limited = false;    ///< and so did a sum against it
@@ -92,10 +93,12 @@ class BoundedProblem {
       reach = above = offset = nu = phi = 0.0;
       largest_force = -1.0;
       projected_at = limit_before = -1;
-      has_bounds = is_idle = blocked = motor_limited = sum_limited = false;
+      has_bounds = blocked = motor_limited = sum_limited = false;
     }
   };
   struct Entry : Standing {
+    const Row* source = nullptr;
+    bool is_posed = false;  ///< what stands below is that of `source`; else only B, twin and axis are
     RowKind kind = RowKind::driver;
     Quantity quantity = Quantity::velocity;
     int level = 1;
@@ -121,17 +124,16 @@ class BoundedProblem {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
     return dot(e.extent, e.B, p.data());
   }
-  /// p += P_i nu
+  /// p += V_i nu
   void push(int i, double nu, Vector& p) const noexcept {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
-    add_multiple(e.reach_extent, nu, e.P, p.data());
+    add_multiple(e.reach_extent, nu, e.V, p.data());
   }
   void copy(const Vector& from, Vector& to) const noexcept {
     std::copy_n(from.data(), dimension_, to.data());
   }
   const double* B(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].B; }
   const double* V(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].V; }
-  const double* P(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].P; }
   const double* T(int motor) const noexcept { return T_[static_cast<std::size_t>(motor)]; }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
   bool is_one_sided(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].is_limit; }
@@ -152,15 +154,36 @@ class BoundedProblem {
     return e.level == level ? e.softness : 0.0;
   }
   int extent_of(const double* x) const noexcept;
-  void take_source(Entry& e, const Row& row) noexcept;
+  void take_source(int i) noexcept;
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
-  int first_level() const noexcept;
 
-  void find_idle_limits() noexcept;
+  /// Limits are posed where a level is not plain.
+  void take_row(int i, const Row& row, double d) noexcept {
+    Entry& e = entry(i);
+    d_[i] = d;
+    e.source = &row;
+    if (row.level != last_level_) note_level(row.level);
+    e.is_posed = false;
+    if (row.kind == RowKind::upper || row.kind == RowKind::lower) {
+      limits_[static_cast<std::size_t>(limit_count_++)] = i;
+      note_limit(i);
+    } else {
+      list_drive(i);
+    }
+  }
+  void list_drive(int i) noexcept;
+  std::span<const int> limits() const noexcept {
+    return {limits_.data(), static_cast<std::size_t>(limit_count_)};
+  }
+  bool can_be_idle(int i) const noexcept;
+  int& last_beside(int i) noexcept;
+  bool is_beyond_another(int i) noexcept;
+  void list_limit(int i) noexcept;
+  void pose_limits() noexcept;
+  void note_level(int level) noexcept;
   bool idle_limits_rest(int level) noexcept;
   void wake_idle_limits(int level) noexcept;
-  void mark_idle_limits() noexcept;
   void bound_rows() noexcept;
   /// Before a row's bounds are read.
   void bound(int i) noexcept {
@@ -170,13 +193,52 @@ class BoundedProblem {
   bool solve_levels(int max_iterations, bool& exact) noexcept;
   void project_rows(int level) noexcept;
   void project_row(int i, int level) noexcept;
+  void take_out_frozen(double* x) const noexcept;
   bool solve_forces(int level, int max_iterations) noexcept;
   bool solve_motion(int level, int max_iterations) noexcept;
   bool least_multipliers(int level, int max_iterations) noexcept;
   void freeze(int level) noexcept;
   bool least_torques(int max_iterations) noexcept;
 
+  static constexpr double tie = 1e-9;  ///< relative: limits closer than that are equal
+  /// Whether `one` is clearly beyond `other`, seen from inside the range that `side` (1: upper) bounds.
+  static bool is_beyond(double one, double other, double side) noexcept {
+    return side * (one - other) > tie * (std::abs(one) + std::abs(other));
+  }
+
+  /// The nearest limit of one side of an axis.
+  struct End {
+    double least = 0.0;  ///< the acceleration that leaves it clear room
+    int row = -1;
+    bool is_tied = false;  ///< another one is as near
+    bool pushes = false;
+  };
+  struct Room {
+    End lower{.least = -infinity}, upper{.least = infinity};
+    int axis = -1, level = 0;
+    int other = -1;  ///< of the same axis at another level
+  };
+  enum class Change { none, some, unclear };
+  void start_room() noexcept;
+  bool allow(int level) noexcept;
+  void note_limit(int i) noexcept;
+  bool join(End& end, const End& other, double side) const noexcept;
+  bool limits_have_room(const Vector& p) const noexcept;
+  bool push_plainly(int level) noexcept;
+  double parked_force(std::size_t k) noexcept;
+  bool park_dependent(int k) noexcept;
+  void list_free_rows() noexcept;
+  bool factorise_plainly(int k) noexcept;
+  Change drive_plainly() noexcept;
+  Change change_drivers() noexcept;
+  Change change_limits(int level) noexcept;
+  bool let_push(End& end, int level) noexcept;
+  bool find_plain_motion(int level, int max_rounds) noexcept;
+  void settle(const Vector& p) noexcept;
+  bool solve_plainly(int level, int max_rounds) noexcept;
+
   void report() noexcept;
+  void report_row(int i, bool motor_at_limit) noexcept;
   void report_force(int i, bool motor_at_limit, RowSolution& row) noexcept;
   void report_sum(int i, RowSolution& row) noexcept;
   void report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept;
@@ -249,7 +311,7 @@ class BoundedProblem {
   bool take_torque(int motor, double torque) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
-  RowMajorMatrix V_, P_;  ///< of the rows on which the levels above have frozen something
+  RowMajorMatrix V_;  ///< of the rows on which the levels above have frozen something
   std::vector<const double*> T_;
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
   Vector tau_slack_;     ///< by how much rounding may take a torque beyond its limits
@@ -268,22 +330,25 @@ class BoundedProblem {
   Vector p_;                        ///< sum of the constraint forces so far
   Vector fixed_;                    ///< its part that the present stage cannot change
   Vector work_, solved_;
-  RowMajorMatrix F_;       ///< K = F F': motion by force, under what the levels above have frozen
-  RowMajorMatrix frozen_;  ///< orthonormal rows: F times them is 0
+  RowMajorMatrix frozen_;  ///< orthonormal rows: the directions that the levels above have closed
   int frozen_count_ = 0;
-  bool all_free_ = true;   ///< F is still 1
   RowMajorMatrix gram_;    ///< T'T of the shared motors is G D G': G^-1, whose diagonal is 1 and not written
   Vector inverse_pivots_;  ///< 1 / D
   bool motors_reach_all_ = false;
   bool motors_drive_all_ = false;   ///< and each of them can push
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
   std::vector<Entry> entries_;
-  std::vector<RowSolution> solutions_;
-  std::vector<int> awake_, idle_;  ///< all rows: those that take part, and limits without anything to do
-  std::vector<int> sums_;
+  std::span<RowSolution> solutions_;
+  std::vector<int> sums_, drives_, limits_;  ///< all rows by what they are; drives_: drivers and forces
+  int limit_count_ = 0;
+  /// Once limits are posed: all rows that take part, and the limits that have nothing to do beside another
+  /// one of their level.
+  std::vector<int> awake_, idle_;
+  bool are_limits_posed_ = false;
+  std::vector<int> levels_;  ///< of all rows, the first one first
+  int last_level_ = 0;       ///< of the row before
   std::vector<int> forces_, motions_,
       limits_above_;                 ///< rows of the present level that take part, by what they are
-  int next_level_ = 0;               ///< the one below it
   std::vector<Sides> last_on_axis_;  ///< by axis: the last limit of each side
   std::vector<int> posed_;           ///< row of each variable of the present stage
   std::vector<int> folded_;          ///< rows of the present stage that need not be solved for
@@ -291,6 +356,21 @@ class BoundedProblem {
   std::vector<Sides> nearest_;  ///< by axis: of the firm limits of the levels above those with the least room
   std::vector<double> units_;   ///< force of a unit of each variable
   std::vector<int> tied_;       ///< rows of the present stage whose multipliers are not unique
+
+  // Of plain levels.
+  std::vector<Room> rooms_;  ///< by axis and level
+  int room_count_ = 0;
+  std::vector<int> first_room_;      ///< by axis
+  std::vector<Room> room_;           ///< by axis: of the levels so far
+  std::vector<int> limited_axes_;    ///< those with limits
+  std::vector<int> pushing_;         ///< the limits that push
+  std::vector<int> pushed_;          ///< those that pushed before the present level
+  std::vector<signed char> parked_;  ///< by driver of the level: 1 at its upper bound, -1 at its lower one
+  std::vector<int> free_rows_;
+  RowMajorMatrix free_factor_;  ///< of these: G, of G D G'
+  Vector free_inverse_D_, free_work_, free_nu_;
+  bool are_levels_plain_ = false;  ///< all of the last solution
+  bool is_axis_out_ = false;       ///< nothing moves along one of the axes
   QuadraticProgram program_;
 };
 

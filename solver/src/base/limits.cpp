@@ -26,68 +26,28 @@ namespace zwang::solver {
 namespace {
 
 constexpr double mostly_along = 0.7;      // a cosine
-constexpr double tie = 1e-9;              // relative: limits closer than that are equal
 constexpr double limit_rounding = 1e-12;  // the same, of a limit that stands where it pushes to
 
-/// Whether `one` is clearly beyond `other`, seen from inside the range that `side` (1: upper) bounds.
-bool is_beyond(double one, double other, double side) {
-  return side * (one - other) > tie * (std::abs(one) + std::abs(other));
-}
-
 }  // namespace
-
-/// Marks all but the nearest of the limits of one level and side along one axis. Where the motors do not make
-/// every motion it marks none, as then even a limit that has room may have to push.
-void BoundedProblem::find_idle_limits() noexcept {
-  awake_.clear();
-  idle_.clear();
-  sums_.clear();
-  if (motors_reach_all_) mark_idle_limits();
-  for (int i = 0; i < rows_; ++i) {
-    (entry(i).is_idle ? idle_ : awake_).push_back(i);
-    if (entry(i).kind == RowKind::sum) sums_.push_back(i);
-  }
-}
-
-void BoundedProblem::mark_idle_limits() noexcept {
-  for (int i = 0; i < rows_; ++i) {
-    Entry& e = entry(i);
-    if (!e.is_limit || e.softness != 0.0 || e.out) continue;
-    const bool is_upper = e.kind == RowKind::upper;
-    const double side = is_upper ? 1.0 : -1.0;
-    // The list of a side of an axis holds no idle ones: it stays as short as there are levels and equal
-    // limits.
-    int& last = is_upper ? last_on_axis_[axis_of(i)].upper : last_on_axis_[axis_of(i)].lower;
-    for (int* k = &last; *k >= 0 && !e.is_idle;) {
-      Entry& other = entry(*k);
-      if (other.level == e.level) {
-        e.is_idle = is_beyond(d_(i), d_(*k), side);
-        other.is_idle = is_beyond(d_(*k), d_(i), side);
-      }
-      if (other.is_idle) {
-        *k = other.limit_before;
-      } else {
-        k = &other.limit_before;
-      }
-    }
-    if (e.is_idle) continue;
-    e.limit_before = last;
-    last = i;
-  }
-}
 
 /// Whether the idle limits of this level have room, as they do where the nearest ones hold; the levels below
 /// leave those as they are.
 bool BoundedProblem::idle_limits_rest(int level) noexcept {
   return std::all_of(idle_.begin(), idle_.end(), [this, level](int i) {
-    return entry(i).level != level || room_of(i, p_) > tie * std::abs(d_(i));
+    const Row& row = *entry(i).source;
+    if (row.level != level) return true;
+    const double beyond = along(entry(i).axis, p_) - d_(i);
+    return (row.kind == RowKind::upper ? -beyond : beyond) > tie * std::abs(d_(i));
   });
 }
 
 /// From this level on they take part.
 void BoundedProblem::wake_idle_limits(int level) noexcept {
   if (idle_.empty()) return;
-  for (const int i : idle_) bound(i);
+  for (const int i : idle_) {
+    take_source(i);
+    bound(i);
+  }
   idle_.clear();
   awake_.clear();
   for (int i = 0; i < rows_; ++i) awake_.push_back(i);

@@ -48,25 +48,34 @@ void BoundedProblem::note_limits(int level) noexcept {
   }
 }
 
+/// A limit that has room holds, and pushes nothing: that is what a row's solution begins with.
 void BoundedProblem::report() noexcept {
   const bool motor_at_limit = is_at_limit(tau_);
-  for (const int i : idle_) solutions_[static_cast<std::size_t>(i)] = {};
-  for (int i = 0; i < rows_; ++i) {
-    if (entry(i).axis == i) entry(i).reached = along(i, p_);
+  std::fill(solutions_.begin(), solutions_.end(), RowSolution{});
+  for (const std::vector<int>* const rows : {&drives_, &sums_}) {
+    for (const int i : *rows) report_row(i, motor_at_limit);
   }
+  if (are_levels_plain_ && !is_axis_out_) {
+    for (const int i : pushing_) report_row(i, motor_at_limit);
+    return;
+  }
+  pose_limits();
   for (const int i : awake_) {
-    RowSolution& row = solutions_[static_cast<std::size_t>(i)];
-    row = {};
-    switch (entry(i).kind) {
-      case RowKind::force:
-        report_force(i, motor_at_limit, row);
-        break;
-      case RowKind::sum:
-        report_sum(i, row);
-        break;
-      default:
-        report_motion(i, motor_at_limit, row);
-    }
+    if (is_one_sided(i)) report_row(i, motor_at_limit);
+  }
+}
+
+void BoundedProblem::report_row(int i, bool motor_at_limit) noexcept {
+  RowSolution& row = solutions_[static_cast<std::size_t>(i)];
+  switch (entry(i).kind) {
+    case RowKind::force:
+      report_force(i, motor_at_limit, row);
+      break;
+    case RowKind::sum:
+      report_sum(i, row);
+      break;
+    default:
+      report_motion(i, motor_at_limit, row);
   }
 }
 
@@ -96,7 +105,7 @@ void BoundedProblem::report_sum(int i, RowSolution& row) noexcept {
 
 void BoundedProblem::report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept {
   const Entry& e = entry(i);
-  const double s = entry(e.axis).reached - d_(i);
+  const double s = along(i, p_) - d_(i);
   row.residual = s;
   if (e.is_limit) row.residual = e.kind == RowKind::upper ? std::max(s, 0.0) : std::min(s, 0.0);
   const bool met = std::abs(row.residual) <= residual_tolerance * (1.0 + std::abs(d_(i)));
@@ -135,7 +144,7 @@ bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
 bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
   for (const int k : sums_) {
     if (!sum_counts(k, entry(i).level)) continue;
-    const double share = dot(dimension_, B(k), P(i));  // what the levels above keep of their own counts, too
+    const double share = dot(dimension_, B(k), V(i));  // what the levels above keep of their own counts, too
     if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
     if (is_sum_at_bound(k, wanted * share)) return true;
   }
@@ -148,7 +157,7 @@ bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
 ///   a sum at its bound: the miss
 double BoundedProblem::opposition(int k, int i, double wanted, double miss) noexcept {
   const Entry& e = entry(k);
-  if (k == i || e.out || e.level > entry(i).level) return 0.0;
+  if (k == i || !e.is_posed || e.out || e.level > entry(i).level) return 0.0;
   const double share = dot(dimension_, B(i), B(k));
   if (std::abs(share) <= residual_tolerance * entry(i).length * e.length) return 0.0;
   if (e.kind == RowKind::sum) {
@@ -163,7 +172,7 @@ double BoundedProblem::opposition(int k, int i, double wanted, double miss) noex
 
 /// The strongest first.
 int BoundedProblem::opposing(int i, std::span<int> out) noexcept {
-  if (i < 0 || i >= rows_ || entry(i).out) return 0;
+  if (i < 0 || i >= rows_ || !entry(i).is_posed || entry(i).out) return 0;
   const RowSolution& row = solutions_[static_cast<std::size_t>(i)];
   const Entry& e = entry(i);
   const bool is_force = e.kind == RowKind::force;

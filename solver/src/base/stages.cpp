@@ -131,7 +131,7 @@ inline void BoundedProblem::pose_multiplier(int k, int level) noexcept {
 /// B_i.p + room = b. Without them a level whose torque runs out would trade a limit above for itself.
 void BoundedProblem::pose_motors(int n, int level) noexcept {
   for (int k = 0; k < n; ++k) {
-    add_multiple(dimension_, -units_[static_cast<std::size_t>(k)], P(posed_[static_cast<std::size_t>(k)]),
+    add_multiple(dimension_, -units_[static_cast<std::size_t>(k)], V(posed_[static_cast<std::size_t>(k)]),
                  program_.E(k));
   }
   for (int j = 0; j < motors_; ++j) {

@@ -49,7 +49,7 @@ void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noe
     if (!sum_counts(i, level)) continue;
     const double length = entry(i).length;
     for (int k = 0; k < n; ++k) {
-      const double share = dot(dimension_, B(i), P(posed_[static_cast<std::size_t>(k)])) / length;
+      const double share = dot(dimension_, B(i), V(posed_[static_cast<std::size_t>(k)])) / length;
       program_.E(k)[equation] = share * units_[static_cast<std::size_t>(k)];
     }
     program_.E(variable)[equation] = -1.0;

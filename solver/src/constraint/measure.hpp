@@ -1,6 +1,7 @@
 /// The measure of a constraint between two frames, as numbers: the coordinate, and the unit force along it.
 #pragma once
 
+#include "linear/pairs.hpp"
 #include "zwang/solver/constraint.hpp"
 
 namespace zwang::solver {
@@ -28,12 +29,20 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
   return in.body >= 0 && in.body == move.body;
 }
 
+static_assert(sizeof(Pose) == 12 * sizeof(double) && sizeof(MotionVector) == 6 * sizeof(double));
+
+/// Number by number, for an even count of them.
+template <int count>
+bool is_same(const double* a, const double* b) noexcept {
+  auto differs = two(a) != two(b);
+  for (int k = 2; k < count; k += 2) differs |= two(a + k) != two(b + k);
+  return (differs[0] | differs[1]) == 0;
+}
+
 /// The twist of a frame on a body is ignored.
 inline bool is_same(const AttachedFrame& one, const AttachedFrame& other) noexcept {
-  const bool moves = one.body < 0;
-  return one.body == other.body && one.pose.position == other.pose.position &&
-         one.pose.rotation == other.pose.rotation &&
-         !(moves && (one.twist.linear != other.twist.linear || one.twist.angular != other.twist.angular));
+  return one.body == other.body && is_same<12>(one.pose.rotation.data(), other.pose.rotation.data()) &&
+         (one.body >= 0 || is_same<6>(one.twist.angular.data(), other.twist.angular.data()));
 }
 
 /// Whether two constraints measure the same axis of the same frames.

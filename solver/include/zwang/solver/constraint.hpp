@@ -128,7 +128,8 @@ enum class RowKind {
 struct Row {
   RowKind kind = RowKind::driver;
   Quantity quantity = Quantity::velocity;  ///< of the statement that made the row
-  int constraint = -1;                     ///< index of that constraint in its set
+  /// Index of that constraint in its set, -1 for none. All rows of a constraint act along the same axis.
+  int constraint = -1;
   int body = 0;                            ///< of the model, on which `a` acts
   ForceVector
       a;  ///< unit constraint force on `body`, in its coordinates and about its origin: a column of A_N
