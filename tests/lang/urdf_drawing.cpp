@@ -187,7 +187,7 @@ LinkShape UrdfDrawing::disc(const std::string& name, double mass, double radius)
   if (frame_ == 0) rpy = {std::numbers::pi / 2.0, 0.0, 0.0};
   if (frame_ == 3) rpy = {0.0, std::numbers::pi / 2.0, 0.0};
   link.geometry = shape_ == 2   ? text_.sphere(radius)
-                  : shape_ == 3 ? UrdfText::mesh("round")
+                  : shape_ == 3 ? UrdfText::mesh("round_" + std::to_string(std::lround(1e6 * radius)))
                                 : text_.cylinder(radius, 0.4 * radius, rpy);
   link.collides = shape_ != 1;
   return link;

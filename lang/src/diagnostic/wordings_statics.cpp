@@ -25,8 +25,8 @@ Diagnostic falls_over(const Span& span, const std::string& base, double outside,
       "`" + base + "` falls over as it stands: its mass lies " +
           (outside > 0.0 ? figure(outside * 1e3, "mm") + " outside" : std::string("on the edge of")) +
           " its wheels and supports",
-      std::string("name the links that also carry it in `supports`, or mend the masses and places in "
-                  "the URDF") +
+      std::string("name the links that also carry it in `supports`, or say where a mass lies, `inertias: "
+                  "{LINK: {radius: 0.2 m, at: [-5 cm, 0 m, 0 m]}}`") +
           (has_supports ? "; a base on two wheels that names none stands on its footprint" : ""));
 }
 
@@ -37,7 +37,8 @@ Diagnostic stands_on_edge(const Span& span, const std::string& base, double insi
       "`" + base + "` stands on the edge of its wheels and supports: its mass lies " +
           figure(inside * 1e3, "mm") + " inside them and " + figure(height * 1e3, "mm") +
           " high, so a floor that leans by " + angle_in_degrees(lean) + " tips it over",
-      "name the links that also carry it in `supports`, or mend the masses and places in the URDF");
+      "name the links that also carry it in `supports`, or say where a mass lies, `inertias: {LINK: {radius: "
+      "0.2 m, at: [-5 cm, 0 m, 0 m]}}`");
 }
 
 Diagnostic tips_by_acceleration(const Span& span, const std::string& axis, double asked, double tips,

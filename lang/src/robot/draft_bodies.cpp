@@ -187,10 +187,13 @@ std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::stri
   std::string text =
       "\n# Links to which the URDF gives no inertia, or one that no body has: a wheel counts as a solid "
       "disc,\n"
-      "# another link as a solid ball. Without `mass` the URDF's, without `radius` the wheel's, without `at` "
-      "the\n"
-      "# URDF's centre of mass.\n"
-      "inertias:\n";
+      "# another link as a solid ball. Without `mass` the URDF's, without `radius` the wheel's.\n";
+  if (std::ranges::any_of(bodies, [](const DraftBody& body) { return body.at.has_value(); }))
+    text +=
+        "# at: where the mass lies, in the link's axes. Proposed: the middle between wheels and supports; "
+        "the "
+        "robot\n# balances there.\n";
+  text += "inertias:\n";
   for (const DraftBody& body : bodies) {
     std::string keys;
     if (body.lacks_mass) keys = "mass: " + (body.beside ? base_mass : mass);
