@@ -26,6 +26,11 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
     limit_(motor.joint) = limit;
     wheels_.push_back({.joint = motor.joint, .radius = motor.radius, .brake = limit});
   }
+  for (const LoopGain& gain : loop_gains(robot)) {
+    const auto wheel = std::ranges::find(wheels_, gain.joint, &Wheel::joint);
+    if (drive_.has_virtual_robot())
+      wheel->most_gain = gain.limit / (gain.proportional * drive_.time_constant);
+  }
   const double force = robot.stop.force / std::max<double>(1.0, static_cast<double>(wheels_.size()));
   for (Wheel& wheel : wheels_) wheel.brake = std::min(wheel.brake, force * wheel.radius);
   if (drive_.feels_contact() && !drive_.integral_time)
@@ -104,6 +109,7 @@ bool VelocityDrive::is_contrary(Wheel& wheel, double rate, double time) const no
 
 std::optional<Event> VelocityDrive::look(const solver::State& measured, double time) noexcept {
   std::optional<Event> found;
+  double farthest = 0.0;  // [m/s]
   if (const solver::Vector3* force = felt_force()) bent_by_ = bent_per_force_ * force->head<2>().norm();
   for (Wheel& wheel : wheels_) {
     const double rate = measured.qd(wheel.joint);
@@ -117,9 +123,12 @@ std::optional<Event> VelocityDrive::look(const solver::State& measured, double t
       wheel.beyond.difference = std::max(wheel.beyond.difference, difference(wheel, rate, fast));
       wheel.behind.difference = std::max(wheel.behind.difference, lag);
     }
-    if (!found && (is_beyond || is_behind))
-      found =
-          Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
+    const double beyond = difference(wheel, rate, fast);
+    wheel.runs_away = beyond > 0.0 && rate * (rate > wheel.most ? beyond : -beyond) > 0.0;
+    const double off = wheel.radius * difference(wheel, rate, slow);
+    if (!(is_beyond || is_behind) || (found && off <= farthest)) continue;
+    farthest = off;
+    found = Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
   }
   looked_at_ = time;
   const solver::Vector3& velocity = measured.base_twist.linear;
@@ -156,6 +165,7 @@ void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& schedul
                           const solver::Solution& solution, const solver::State& state, double time,
                           const Eigen::VectorXd& compensation, Command& command) noexcept {
   blind_for_ = 0.0;
+  countered_ = {};
   slowest_ = solver::infinity;
   for (Wheel& wheel : wheels_) wheel.is_let_go = false;
   if (virtual_) {
@@ -211,11 +221,38 @@ void VelocityDrive::ramp_to_rest(Command& command) const noexcept {
   command.velocity *= left;
 }
 
+/// The loop of a reversed motor accelerates its wheel away from V, by (v - V)/T_c up to its limit. It brakes
+/// if V is beyond what the wheel can have reached until the command acts. A sound motor follows V, and gets
+/// faster. Then it is told 0 as the others are.
+void VelocityDrive::counter(const Eigen::VectorXd& qd, int suspect, Command& command) noexcept {
+  const auto wheel = std::ranges::find(wheels_, suspect, &Wheel::joint);
+  if (wheel == wheels_.end() || drive_.takes_twist) return;
+  // A wheel that is held when the stop begins, and is turned by hand later, is none.
+  if (suspect != countered_.joint) countered_ = {.joint = suspect, .is_sound = !wheel->runs_away};
+  if (countered_.is_sound) return;
+  const double late = drive_.delay + 2.0 / drive_.rate;
+  const double rate = qd(suspect);
+  countered_.since += period_;
+  if (countered_.since <= late + drive_.time_constant) countered_.speed = std::abs(rate);
+  countered_.is_sound = std::abs(rate) > countered_.speed + gained / wheel->radius + late * wheel->most_gain;
+  const double beyond = 2.0 * rate + std::copysign(late * wheel->most_gain, rate);
+  command.velocity(suspect) = countered_.is_sound ? 0.0 : beyond;
+}
+
+bool VelocityDrive::moves(const Command& command) const noexcept {
+  if (!virtual_) return false;
+  const auto is_told = [&](const Wheel& wheel) {
+    return wheel.joint != countered_.joint && command.velocity(wheel.joint) != 0.0;
+  };
+  return std::ranges::any_of(wheels_, is_told) || !command.twist.isZero(0.0);
+}
+
 void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept {
   command.torque.setZero();
   if (effort_watch_) effort_watch_->begin();
   if (virtual_) {
     ramp_to_rest(command);
+    if (qd != nullptr) counter(*qd, suspect, command);
     return remember(command);
   }
   if (qd != nullptr) let_go_of_what_drives(*qd, suspect);

@@ -68,9 +68,7 @@ class VelocityDrive {
   /// The run is over, and perhaps nothing more is sent: a drive that pushes as hard as it can is told 0.
   void rest(Command& command) noexcept;
   /// Whether such a drive is told to move.
-  bool moves(const Command& command) const noexcept {
-    return virtual_.has_value() && !(command.velocity.isZero(0.0) && command.twist.isZero(0.0));
-  }
+  bool moves(const Command& command) const noexcept;
   void go_on_from(VelocityDrive& before) noexcept;
 
   /// The tolerance of a wheel's speed, and its duration. Each pair is a way of 6 mm.
@@ -97,6 +95,7 @@ class VelocityDrive {
   static constexpr double lost_time = 0.05;   ///< [s]
   static constexpr double full_brake = 0.5;   ///< [rad/s]: below it the brake's torque shrinks with the rate
   static constexpr double faster = 0.02;      ///< [m/s] what the rims of braked wheels may gain, rms
+  static constexpr double gained = 0.05;      ///< [m/s] by a countered wheel's rim: its motor is not reversed
   static constexpr double brake_after = 0.5;  ///< [s] that a drive brakes blindly after its command is 0
 
  private:
@@ -108,6 +107,7 @@ class VelocityDrive {
   struct Wheel {
     int joint = 0;
     double radius = 0.0;             ///< [m]
+    double most_gain = 0.0;          ///< [rad/s^2] that its motor's limit gives its share of the base
     double brake = 0.0;              ///< [N m] its part of `stop.force`
     double most = 0.0, least = 0.0;  ///< [rad/s] of the latest commands
     Lag beyond, behind;              ///< of the fast allowance, and of the slow one
@@ -116,6 +116,7 @@ class VelocityDrive {
     double rate_before = 0.0;        ///< [rad/s] when `beyond` began
     double asked = 0.0;              ///< [rad/s] what the commands asked for since then
     bool is_let_go = false;
+    bool runs_away = false;  ///< it is faster than its commands, or turns against them
   };
   void remember(const Command& command) noexcept;
   void let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect) noexcept;
@@ -127,6 +128,16 @@ class VelocityDrive {
   /// Whether a wheel of a drive with torque limits lags because its motor does the contrary of its command.
   bool is_contrary(Wheel& wheel, double rate, double time) const noexcept;
   void ramp_to_rest(Command& command) const noexcept;
+  /// A velocity that holds the wheel at joint `suspect`, if it runs away and its motor is reversed.
+  void counter(const Eigen::VectorXd& qd, int suspect, Command& command) noexcept;
+
+  /// The wheel whose motor may be reversed, in the stop.
+  struct Countered {
+    int joint = -1;
+    double since = 0.0;     ///< [s] it is told so
+    double speed = 0.0;     ///< [rad/s] when the command began to act
+    bool is_sound = false;  ///< it obeyed
+  };
 
   lang::Drive drive_;
   double period_;
@@ -151,7 +162,8 @@ class VelocityDrive {
   Eigen::Vector2d before_ = Eigen::Vector2d::Zero();  ///< [m/s] the same, as far as it may be on its way
   Lag led_away_;                                      ///< of the base
   double measured_at_ = -solver::infinity;            ///< [s]
-  double blind_for_ = 0.0;                            ///< [s] with the command at 0
+  Countered countered_;
+  double blind_for_ = 0.0;  ///< [s] with the command at 0
 };
 
 }  // namespace zwang::runtime

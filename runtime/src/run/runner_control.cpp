@@ -107,7 +107,8 @@ void Runner::Parts::put_command(bool good, bool solved) noexcept {
     return;
   }
   if (guard.stopped()) {
-    const bool is_contrary = guard.reason() == EventCode::not_followed;
+    const bool is_contrary =
+        guard.reason() == EventCode::not_followed || guard.reason() == EventCode::effort_lost;
     const int suspect = is_contrary ? event_signal::joint_of(guard.stop_event().signal) : -1;
     drive->brake(good && !is_a_wheel_dead ? &estimated.state.qd : nullptr, suspect, command);
     tau.setZero();
