@@ -109,6 +109,7 @@ double ActuatorWatch::way_of(const Motor& motor, const Fit& fit, const ContactDe
 bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, double q,
                             const ContactDepth& contact) const noexcept {
   const Claim& claim = motor.claims[kind];
+  if (claim.ticks < dwell_ticks_ && claim.close_ticks < close_ticks_) return false;
   const double told = motor.high_tau - motor.low_tau;
   if (motor.is_met && motor.hardest < left_behind * std::abs(fit.f)) return false;
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;

@@ -116,20 +116,24 @@ void Scheduler::Parts::read_planes(const solver::Solution& solution) noexcept {
     int before = -1, place = -1;
     for (const solver::Row& asked : blended.constraints.rows()) {
       if (row == solution.rows.size()) return;
-      const solver::RowSolution& answer = solution.rows[row];
       const auto i = static_cast<std::size_t>(asked.constraint);
-      const Origin& origin = blended.in_force[i].origin;
-      if (asked.constraint != before) place = place_of(blended.constraints.constraints()[i], origin.part);
-      before = asked.constraint;
-      const auto at = static_cast<std::size_t>(place);
-      if (place >= 0 && blended.in_force[i].active) {
+      const bool is_first = asked.constraint != before;  // the others act along the same axis
+      if (is_first) {
+        before = asked.constraint;
+        const InForce& force = blended.in_force[i];
+        place = force.active ? place_of(blended.constraints.constraints()[i], force.origin.part) : -1;
+      }
+      if (place >= 0) {
+        const solver::RowSolution& answer = solution.rows[row];
+        const Origin& origin = blended.in_force[i].origin;
+        const auto at = static_cast<std::size_t>(place);
         PlaneReading& reading = plane_readings[static_cast<std::size_t>(
             plane_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)])];
         if (asked.kind == solver::RowKind::sum) reading.press[at] += blended.share * answer.nu;
         if (set == 0) {
           reading.row[at] = static_cast<int>(row);
-          reading.acceleration[at] =
-              acceleration_of(asked, solution, blended.constraints.coordinates()[i].acceleration_bias);
+          const double bias = blended.constraints.coordinates()[i].acceleration_bias;
+          if (is_first) reading.acceleration[at] = acceleration_of(asked, solution, bias);
         }
       }
       ++row;
