@@ -64,7 +64,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       program_(2 * rows + motors, dimension, dimension + rows) {
   for (std::vector<int>* list :
        {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &levels_, &forces_, &motions_,
-        &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_})
+        &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_, &later_motions_})
     list->reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));

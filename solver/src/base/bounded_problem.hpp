@@ -224,7 +224,7 @@ class BoundedProblem {
   void note_limit(int i) noexcept;
   bool join(End& end, const End& other, double side) const noexcept;
   bool limits_have_room(const Vector& p) const noexcept;
-  bool push_plainly(int level) noexcept;
+  bool push_plainly(int level, int max_rounds) noexcept;
   double parked_force(std::size_t k) noexcept;
   bool park_dependent(int k) noexcept;
   void list_free_rows() noexcept;
@@ -366,7 +366,7 @@ class BoundedProblem {
   std::vector<int> pushing_;         ///< the limits that push
   std::vector<int> pushed_;          ///< those that pushed before the present level
   std::vector<signed char> parked_;  ///< by driver of the level: 1 at its upper bound, -1 at its lower one
-  std::vector<int> free_rows_;
+  std::vector<int> free_rows_, later_motions_;
   RowMajorMatrix free_factor_;  ///< of these: G, of G D G'
   Vector free_inverse_D_, free_work_, free_nu_;
   bool are_levels_plain_ = false;  ///< all of the last solution

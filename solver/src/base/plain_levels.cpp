@@ -88,16 +88,21 @@ bool BoundedProblem::limits_have_room(const Vector& p) const noexcept {
 }
 
 /// p without what the limits above push, and with the forces of the level in full, into fixed_.
-bool BoundedProblem::push_plainly(int level) noexcept {
+bool BoundedProblem::push_plainly(int level, int max_rounds) noexcept {
   copy(p_, fixed_);
   for (const int i : pushing_) {
     project_row(i, level);
     if (entry(i).reach > 0.0) push(i, -entry(i).nu, fixed_);
   }
   if (forces_.empty()) return true;
-  if (!pushing_.empty()) return false;
   for (const int i : forces_) push(i, entry(i).force, fixed_);
-  return limits_have_room(fixed_) && sums_hold(level, fixed_) && torques_for(fixed_);
+  if (pushing_.empty() && limits_have_room(fixed_)) return sums_hold(level, fixed_) && torques_for(fixed_);
+  // The limits above brake the forces, before a driver of the level has its say.
+  later_motions_.clear();
+  later_motions_.swap(motions_);
+  const bool is_plain = find_plain_motion(level, max_rounds);
+  motions_.swap(later_motions_);
+  return is_plain;
 }
 
 double BoundedProblem::parked_force(std::size_t k) noexcept {
@@ -303,7 +308,7 @@ bool BoundedProblem::solve_plainly(int level, int max_rounds) noexcept {
     if (e.reach > 0.0) (e.kind == RowKind::force ? forces_ : motions_).push_back(i);
   }
   pushed_ = pushing_;
-  if (!push_plainly(level) || !allow(level)) return false;
+  if (!push_plainly(level, max_rounds) || !allow(level)) return false;
   if (motions_.empty() && pushing_.empty() && limits_have_room(fixed_)) {
     if (!forces_.empty()) settle(fixed_);
     return true;

@@ -130,7 +130,7 @@ struct Row {
   Quantity quantity = Quantity::velocity;  ///< of the statement that made the row
   /// Index of that constraint in its set, -1 for none. All rows of a constraint act along the same axis.
   int constraint = -1;
-  int body = 0;                            ///< of the model, on which `a` acts
+  int body = 0;  ///< of the model, on which `a` acts
   ForceVector
       a;  ///< unit constraint force on `body`, in its coordinates and about its origin: a column of A_N
   int reference_body = -1;  ///< the row measures motion relative to this body; -1 for the world
