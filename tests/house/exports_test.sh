@@ -9,8 +9,8 @@ shift 2
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
-# The simulation watches boundaries with the code of the runtime.
-shared_within='FrameTable|RegionFence|carried'
+# The simulation watches boundaries with the code of the runtime. Its velocity loops have the gains that the runtime expects.
+shared_within='FrameTable|RegionFence|carried|loop_gains'
 public=$(cat "$root"/{solver,lang,runtime}/include/zwang/*/*.hpp | grep -oE '\w+' | sort -u)
 libraries=$(pkg-config --libs yaml-cpp urdfdom libzstd zlib)
 

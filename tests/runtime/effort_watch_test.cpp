@@ -1,7 +1,7 @@
 // The measured torques of motors behind velocity loops. A loop that the test computes by itself, at a wheel
 // with friction and a wall, is never missed. A motor that gives nothing, keeps its torque or gives the
 // contrary is.
-#include "guard/effort_watch.hpp"
+#include "drive/effort_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::runtime {
@@ -24,7 +25,7 @@ struct LoopGain {
   Eigen::Vector3d per_twist = Eigen::Vector3d::Zero();  ///< [rad/s]
 };
 
-std::vector<LoopGain> loop_gains(const lang::Robot& robot);
+ZWANG_EXPORT std::vector<LoopGain> loop_gains(const lang::Robot& robot);
 double driven_mass(const lang::Robot& robot);  ///< m [kg]
 
 }  // namespace zwang::runtime

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "drive/effort_watch.hpp"
 #include "drive/set_point.hpp"
 #include "drive/torque_box.hpp"
 #include "drive/virtual_robot.hpp"
-#include "guard/effort_watch.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/command.hpp"
 #include "zwang/runtime/event.hpp"

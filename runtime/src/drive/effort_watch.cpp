@@ -1,4 +1,4 @@
-#include "guard/effort_watch.hpp"
+#include "drive/effort_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
