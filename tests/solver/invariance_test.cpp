@@ -98,6 +98,25 @@ TEST_P(Invariance, TheOrderOfRowsDoesNotMatter) {
   }
 }
 
+// A level is a rank. A robot's runtime holds the joints that no task uses above the levels of task files, at
+// -1.
+TEST_P(Invariance, OnlyTheOrderOfLevelsMatters) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    LawProblem p(GetParam(), seed, 15.0);
+    const std::vector<solver::Row> rows = p.rows({.count = 7, .levels = 3});
+    solver::Solver solver(p.model);
+    solver::Solution first(p.model);
+    ASSERT_EQ(solver.solve(p.state, rows, first), solver::Status::ok);
+    for (const int by : {-1, -2, -100, 100}) {
+      std::vector<solver::Row> shifted = rows;
+      for (solver::Row& row : shifted) row.level += by;
+      solver::Solution second(p.model);
+      ASSERT_EQ(solver.solve(p.state, shifted, second), solver::Status::ok);
+      EXPECT_EQ(second.tau, first.tau) << "seed " << seed << " by " << by;
+    }
+  }
+}
+
 /// How many of the new unit one of the old is.
 struct Units {
   double length, mass, time;

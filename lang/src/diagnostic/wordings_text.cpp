@@ -53,10 +53,8 @@ constexpr std::array reasons{
 
 Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason) {
   const bool is_a_name = !std::filesystem::path(path).has_extension();
-  const char* help = is_a_name
-                         ? "write the path of a file; what ships goes by its name on the command line, as "
-                           "`--robot kelo_base` or `--scene wall`"
-                         : "paths are seen from the folder of the file that names them";
+  std::string help = "paths are seen from the folder of the file that names them";
+  if (is_a_name) help += "; what ships goes by its name on the command line, as `--robot kelo_base`";
   return error("E109", span, "cannot read " + in_ticks(path) + ": " + reason, span.exists() ? help : "");
 }
 

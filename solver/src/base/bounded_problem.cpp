@@ -96,7 +96,7 @@ bool BoundedProblem::solve(int max_iterations, std::span<RowSolution> solutions)
     are_levels_plain_ = false;
     for (Entry& e : entries_) {
       e.nu = e.phi = e.offset = 0.0;
-      e.projected_at = -1;
+      e.projected_at = no_level;
     }
     solve_levels(max_iterations, exact);
   }

@@ -20,6 +20,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,8 @@ class BoundedProblem {
   int opposing(int row, std::span<int> out) noexcept;
 
  private:
+  static constexpr int no_level = std::numeric_limits<int>::min();  ///< a row may be of any other
+
   /// The findings of the stages about a row.
   struct Standing {
     double reach = 0.0;  ///< |V_i|, at the present level
@@ -78,21 +81,22 @@ class BoundedProblem {
     double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
     double nu = 0.0, phi = 0.0;
-    double plain_nu = 0.0;       ///< nu, while a plain level is sought
-    int reach_extent = 0;        ///< of V_i
-    int projected_at = -1;       ///< level of V_i
-    int limit_before = -1;       ///< on the same side of the same axis
-    bool has_bounds = false;     ///< lo and hi are finite, but on a sum
-    bool blocked = false;        ///< the levels above leave it no freedom
-    bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
-    bool sum_limited = false;    ///< and so did a sum against it
+    double plain_nu = 0.0;        ///< nu, while a plain level is sought
+    int reach_extent = 0;         ///< of V_i
+    int projected_at = no_level;  ///< level of V_i
+    int limit_before = -1;        ///< on the same side of the same axis
+    bool has_bounds = false;      ///< lo and hi are finite, but on a sum
+    bool blocked = false;         ///< the levels above leave it no freedom
+    bool motor_limited = false;   ///< a motor stood at its limit when the row's level was solved
+    bool sum_limited = false;     ///< and so did a sum against it
 
     /// The values before the first level. The fields that a level writes for every row that it looks at may
     /// stay. (Field by field: for a whole struct GCC 12 emits a string instruction, which is slow to start.)
     void reset() noexcept {
       reach = above = offset = nu = phi = 0.0;
       largest_force = -1.0;
-      projected_at = limit_before = -1;
+      projected_at = no_level;
+      limit_before = -1;
       has_bounds = blocked = motor_limited = sum_limited = false;
     }
   };

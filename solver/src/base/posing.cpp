@@ -26,14 +26,15 @@ bool is_firm(const Row& row) {
 void BoundedProblem::resize(int rows) noexcept {
   rows_ = rows;
   limit_count_ = room_count_ = 0;
-  last_level_ = -1;  // levels count from 0 on
+  last_level_ = no_level;
   are_limits_posed_ = is_axis_out_ = false;
   for (std::vector<int>* list : {&sums_, &drives_, &levels_}) list->clear();
 }
 
 void BoundedProblem::set_row(int i, const Row& row, double d, const double* B, double least_square) noexcept {
   Entry& e = entry(i);
-  e.twin = e.projected_at = -1;
+  e.twin = -1;
+  e.projected_at = no_level;
   e.axis = i;
   last_on_axis_[static_cast<std::size_t>(i)] = {};
   first_room_[static_cast<std::size_t>(i)] = -1;
