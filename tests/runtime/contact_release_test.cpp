@@ -19,7 +19,7 @@
 namespace zwang::runtime {
 namespace {
 
-lang::Program at_far_wall(const std::string& robot) {
+lang::Program near_far_wall(const std::string& robot) {
   lang::Program program = zwang::test::shipped_files("wall_align.yaml", "robots/feels/" + robot + ".yaml",
                                                      "scenes/wall_far.yaml");
   program.scene->start_at = {0.72, 0.0};
@@ -78,7 +78,7 @@ double threshold(const lang::Program& program) {
 TEST(ContactRelease, AStopByAPersonLetsGoOfTheWall) {
   for (const char* robot : {"mecanum_wrench_50_hz", "mecanum_effort_1_khz", "diff_wrench_50_hz"}) {
     for (const double stiffness : {2e3, 1e6}) {
-      lang::Program program = at_far_wall(robot);
+      lang::Program program = near_far_wall(robot);
       program.scene->objects[0].stiffness = stiffness;
       const Released held = stop_at(program, pressing, EventCode::clock_rate);
       const Released released = stop_at(program, pressing, EventCode::requested);
@@ -95,7 +95,7 @@ TEST(ContactRelease, AStopByAPersonLetsGoOfTheWall) {
 
 /// c = V + T_c V' goes T_c V farther than V, and the ramp v^2/(2 a).
 TEST(ContactRelease, ASensorThatLiesMovesTheBaseByItsBoundOnly) {
-  const lang::Program program = at_far_wall("mecanum_wrench_50_hz");
+  const lang::Program program = near_far_wall("mecanum_wrench_50_hz");
   const double v = ContactRelease::fastest, a = program.robot.stop.deceleration;
   const double beyond = v * program.robot.drive.time_constant + 0.5 * v * v / a + 0.5e-3;
   for (const double lie : {-30.0, -500.0}) {
@@ -110,7 +110,7 @@ TEST(ContactRelease, ASensorThatLiesMovesTheBaseByItsBoundOnly) {
 
 /// A pull towards the wall is no answer to the push: nothing is told. Else the motors would press with 101 N.
 TEST(ContactRelease, ASensorThatLiesDoesNotPressTheBaseOnTheWall) {
-  const Released r = stop_at(at_far_wall("mecanum_wrench_50_hz"), pressing, EventCode::requested, 500.0);
+  const Released r = stop_at(near_far_wall("mecanum_wrench_50_hz"), pressing, EventCode::requested, 500.0);
   EXPECT_LT(r.force, 21.0);
   EXPECT_LT(r.way, 1e-3);
 }
@@ -118,7 +118,7 @@ TEST(ContactRelease, ASensorThatLiesDoesNotPressTheBaseOnTheWall) {
 /// 0.08 m/s, and the sensor's noise.
 TEST(ContactRelease, ABaseThatPressesOnNothingOnlyBrakes) {
   for (const char* robot : {"mecanum_wrench_50_hz", "mecanum_effort_1_khz", "omni_effort_100_hz"}) {
-    const lang::Program program = at_far_wall(robot);
+    const lang::Program program = near_far_wall(robot);
     const Released r = stop_at(program, 0.8, EventCode::requested);
     EXPECT_EQ(r.pressed, 0.0) << robot;
     EXPECT_LT(r.last_told_at, 0.08 / program.robot.stop.deceleration + 5 * ms) << robot;
@@ -126,8 +126,28 @@ TEST(ContactRelease, ABaseThatPressesOnNothingOnlyBrakes) {
   }
 }
 
+/// In the midst of it. The run goes on, and the base presses again.
+TEST(ContactRelease, AResetEndsIt) {
+  const lang::Program program = near_far_wall("mecanum_wrench_1_khz");
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program);
+  for (int i = 0; i < 3400; ++i) {
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    if (i == 2000) runner.guard().stop(EventCode::requested);
+    if (i == 2200) {
+      EXPECT_NE(runner.command().velocity.lpNorm<Eigen::Infinity>(), 0.0);
+      runner.guard().reset();
+    }
+    runner.step(sensed);
+    ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+  }
+  EXPECT_EQ(runner.state(), RunState::running);
+  EXPECT_NEAR(plant.truth().objects[0].force, 20.0, 1.5);  // the noise
+}
+
 TEST(ContactRelease, ReplaysBitByBitAndAllocatesNothing) {
-  test::expect_replay_without_heap_calls(at_far_wall("mecanum_effort_100_hz"), 5000, 4000);
+  test::expect_replay_without_heap_calls(near_far_wall("mecanum_effort_100_hz"), 5000, 4000);
 }
 
 }  // namespace

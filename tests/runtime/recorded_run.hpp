@@ -16,9 +16,10 @@
 
 namespace zwang::test {
 
-/// Writes `ticks` records into `log`; a host stops the run at the tick `stopped_at`. `calls`: of the heap, by all steps of the runner together.
-inline void record_run(const lang::Program& program, const std::filesystem::path& log, int ticks,
-                       long& calls, int stopped_at = -1) {
+/// Writes `ticks` records into `log`; a host stops the run at the tick `stopped_at`. `calls`: of the heap, by
+/// all steps of the runner together.
+inline void record_run(const lang::Program& program, const std::filesystem::path& log, int ticks, long& calls,
+                       int stopped_at = -1) {
   runtime::ScenePlant plant(program);
   runtime::Runner runner(program);
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
