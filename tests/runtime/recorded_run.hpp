@@ -16,9 +16,10 @@
 
 namespace zwang::test {
 
-/// Writes `ticks` records into `log`. `calls`: of the heap, by all steps of the runner together.
-inline void record_run(const lang::Program& program, const std::filesystem::path& log, int ticks,
-                       long& calls) {
+/// Writes `ticks` records into `log`; a host stops the run at the tick `stopped_at`. `calls`: of the heap, by
+/// all steps of the runner together.
+inline void record_run(const lang::Program& program, const std::filesystem::path& log, int ticks, long& calls,
+                       int stopped_at = -1) {
   runtime::ScenePlant plant(program);
   runtime::Runner runner(program);
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
@@ -28,6 +29,7 @@ inline void record_run(const lang::Program& program, const std::filesystem::path
   runtime::Sensed sensed(program);
   for (int i = 0; i < ticks; ++i) {
     recorder.wait_for_room();
+    if (i == stopped_at) runner.guard().stop(runtime::EventCode::requested);
     ASSERT_EQ(plant.sense(sensed), runtime::PlantStatus::ok);
     start_counting_heap_calls();
     runner.step(sensed);
@@ -38,11 +40,11 @@ inline void record_run(const lang::Program& program, const std::filesystem::path
 }
 
 /// The runner's steps make no call of the heap, and the log of `ticks` replays to the last bit.
-inline void expect_replay_without_heap_calls(const lang::Program& program, int ticks) {
+inline void expect_replay_without_heap_calls(const lang::Program& program, int ticks, int stopped_at = -1) {
   const TemporaryFolder folder;
   const std::filesystem::path log = folder.path() / "log.mcap";
   long calls = 0;
-  record_run(program, log, ticks, calls);
+  record_run(program, log, ticks, calls, stopped_at);
   EXPECT_EQ(calls, 0);
   const runtime::ReplayResult result = runtime::replay(log, program, {});
   EXPECT_EQ(result.records, ticks);

@@ -8,12 +8,13 @@ namespace zwang::runtime {
 ContactResponse::ContactResponse(const lang::Robot& robot, double period)
     : period_(period),
       drive_(robot.drive),
-      filter_(std::max(20e-3, 1.0 / robot.drive.rate)),
+      filter_(low_pass(robot.drive)),
       motions_(robot.model),
       base_factor_(robot.model.joint_count() + 6),
       base_(Eigen::MatrixXd::Zero(3, robot.model.joint_count() + 6)),
       y_(Eigen::VectorXd::Zero(robot.model.joint_count() + 6)),
-      right_(y_) {
+      right_(y_),
+      pressed_with_(y_) {
   if (const auto frame = robot.model.find_frame(drive_.feels.frame))
     sensor_ = robot.model.frames()[static_cast<std::size_t>(*frame)].pose_in_body;
   if (drive_.feels.by == lang::Feels::By::effort) effort_.emplace(robot);
@@ -81,6 +82,7 @@ void ContactResponse::accelerate(const solver::Solver& solver, const solver::Sol
   }
   if (effort_) effort_->follow(motions_, solution);
   const int m = motions_.count;
+  pressed_with_.head(m).noalias() = motions_.joint.leftCols(m).transpose() * solution.tau;
   y_.head(m).noalias() = motions_.base.leftCols(m).transpose() * w_;
   pressed_for_ = w_.head<2>().norm() > threshold(state) ? pressed_on : std::max(0.0, pressed_for_ - period_);
   if (is_pressed()) {

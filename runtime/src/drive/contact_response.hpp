@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 
 #include "drive/effort_sense.hpp"
@@ -41,6 +42,18 @@ class ContactResponse {
   /// w: what presses on the base at its origin, in its axes: x, y [N] and rz [N m].
   const solver::Vector3& force() const noexcept { return w_; }
   bool is_pressed() const noexcept { return pressed_for_ > 0.0; }
+  /// Of a robot that stands. [N]
+  double threshold() const noexcept { return threshold_; }
+  /// Of the last solution.
+  const solver::FreeMotions& motions() const noexcept { return motions_; }
+  /// T' tau of the same: what the motors pressed with.
+  auto pressed_with() const noexcept { return pressed_with_.head(motions_.count); }
+  /// The virtual robot does not move any more.
+  void rest() noexcept {
+    if (effort_) effort_->rest();
+  }
+  /// The time constant of w. [s]
+  static double low_pass(const lang::Drive& drive) noexcept { return std::max(20e-3, 1.0 / drive.rate); }
 
   static constexpr double pressed_on = 0.05;        ///< [s] that the damping stays
   static constexpr double taken_over_within = 1.0;  ///< [s] of V_f
@@ -69,6 +82,7 @@ class ContactResponse {
   NormalEquations base_factor_;  ///< of B'B
   Eigen::MatrixXd base_;         ///< B
   Eigen::VectorXd y_, right_;
+  Eigen::VectorXd pressed_with_;
   solver::Vector3 w_ = solver::Vector3::Zero();
   solver::Vector3 creep_ = solver::Vector3::Zero();         ///< V_f of the base: x, y [m/s], rz [rad/s]
   double felt_at_ = -solver::infinity;                      ///< [s]

@@ -27,6 +27,8 @@ class EffortSense {
     return sensed.effort.size() == effort_.size() && sensed.effort.allFinite();
   }
   void begin() noexcept { is_known_ = false; }
+  /// Nothing turns fast any more.
+  void rest() noexcept { bias_.setZero(); }
   /// The virtual robot's motions and its solution, in this tick.
   void follow(const solver::FreeMotions& motions, const solver::Solution& solution) noexcept;
   /// w of the base at its origin, in its axes, from the last sample to this one: x, y [N] and rz [N m].

@@ -166,6 +166,7 @@ void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& schedul
                           const Eigen::VectorXd& compensation, Command& command) noexcept {
   blind_for_ = 0.0;
   countered_ = {};
+  lets_go_ = false;
   slowest_ = solver::infinity;
   for (Wheel& wheel : wheels_) wheel.is_let_go = false;
   if (virtual_) {
@@ -240,18 +241,27 @@ void VelocityDrive::counter(const Eigen::VectorXd& qd, int suspect, Command& com
 }
 
 bool VelocityDrive::moves(const Command& command) const noexcept {
-  if (!virtual_) return false;
+  return virtual_ && (lets_go_ || is_told_to_move(command));
+}
+
+bool VelocityDrive::is_told_to_move(const Command& command) const noexcept {
   const auto is_told = [&](const Wheel& wheel) {
     return wheel.joint != countered_.joint && command.velocity(wheel.joint) != 0.0;
   };
   return std::ranges::any_of(wheels_, is_told) || !command.twist.isZero(0.0);
 }
 
-void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept {
+void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& command, bool is_felt) noexcept {
   command.torque.setZero();
   if (effort_watch_) effort_watch_->begin();
   if (virtual_) {
-    ramp_to_rest(command);
+    lets_go_ = is_felt && virtual_->may_let_go();
+    if (lets_go_ && (virtual_->lets_go() || !is_told_to_move(command))) {
+      virtual_->let_go(command);
+    } else {
+      ramp_to_rest(command);
+      virtual_->hold_on();
+    }
     if (qd != nullptr) counter(*qd, suspect, command);
     return remember(command);
   }

@@ -64,10 +64,12 @@ class VelocityDrive {
   /// sample, torques may only take energy. Without it the drive brakes by its own encoders for as long as it
   /// needs. The wheel at joint `suspect` (-1: none) is released, and so is each wheel that gets faster while
   /// it is braked. Its motor does the contrary of its command, and the others take the energy.
-  void brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept;
+  /// With `is_felt` the force that a robot feels is trusted. Then it lets go of what it presses on, see
+  /// ContactRelease.
+  void brake(const Eigen::VectorXd* qd, int suspect, Command& command, bool is_felt = false) noexcept;
   /// The run is over, and perhaps nothing more is sent: a drive that pushes as hard as it can is told 0.
   void rest(Command& command) noexcept;
-  /// Whether such a drive is told to move.
+  /// Whether such a drive is told to move, or may be.
   bool moves(const Command& command) const noexcept;
   void go_on_from(VelocityDrive& before) noexcept;
 
@@ -128,6 +130,7 @@ class VelocityDrive {
   /// Whether a wheel of a drive with torque limits lags because its motor does the contrary of its command.
   bool is_contrary(Wheel& wheel, double rate, double time) const noexcept;
   void ramp_to_rest(Command& command) const noexcept;
+  bool is_told_to_move(const Command& command) const noexcept;
   /// A velocity that holds the wheel at joint `suspect`, if it runs away and its motor is reversed.
   void counter(const Eigen::VectorXd& qd, int suspect, Command& command) noexcept;
 
@@ -163,6 +166,7 @@ class VelocityDrive {
   Lag led_away_;                                      ///< of the base
   double measured_at_ = -solver::infinity;            ///< [s]
   Countered countered_;
+  bool lets_go_ = false;    ///< of what it presses on, or will
   double blind_for_ = 0.0;  ///< [s] with the command at 0
 };
 

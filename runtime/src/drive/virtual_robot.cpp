@@ -49,7 +49,10 @@ VirtualRobot::VirtualRobot(const lang::Robot& robot, double period)
       wheels_(robot.drive, period, robot.model.joint_count()),
       base_(robot.drive, period, 3),
       qdd_(Eigen::VectorXd::Zero(robot.model.joint_count())) {
-  if (robot.drive.feels_contact()) contact_.emplace(robot, period);
+  if (robot.drive.feels_contact()) {
+    contact_.emplace(robot, period);
+    release_.emplace(robot, period);
+  }
   // The command of a tick has the velocity at its end.
   lag_ = std::max(0.0, lag_ + wheels_.age() - period);
   for (int j = 0; j < robot.model.joint_count(); ++j)
@@ -64,6 +67,7 @@ void VirtualRobot::begin(const solver::State& state, double time) noexcept {
   wheels_.begin(state_.qd);
   base_.begin(planar(state_.base_twist));
   if (contact_) contact_->begin();
+  if (release_) release_->begin();
   updates_ = 0;
   corrected_at_ = time;
   has_begun_ = true;
@@ -116,6 +120,12 @@ void VirtualRobot::move(const solver::State& state, const solver::Solver& solver
   now.q = state_.q;
   wheels_.update(state_.qd, is_pressed);
   base_.update(planar(state_.base_twist), is_pressed);
+}
+
+void VirtualRobot::let_go(Command& command) noexcept {
+  contact_->rest();
+  release_->update(*contact_);
+  if (!release_->is_over()) release_->tell(*contact_, command);
 }
 
 void VirtualRobot::tell(Command& command) const noexcept {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "drive/contact_release.hpp"
 #include "drive/contact_response.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/command.hpp"
@@ -77,6 +78,13 @@ class VirtualRobot {
   const solver::Vector3* felt_force() const noexcept { return contact_ ? &contact_->force() : nullptr; }
   /// It feels a contact now, and is damped.
   bool is_pressed() const noexcept { return contact_ && contact_->is_pressed(); }
+  /// In the protective stop, see ContactRelease. It has not ended, of a robot that feels; it moves the base.
+  bool may_let_go() const noexcept { return release_ && !release_->is_over(); }
+  bool lets_go() const noexcept { return may_let_go() && release_->runs(); }
+  void let_go(Command& command) noexcept;
+  void hold_on() noexcept {
+    if (release_) release_->pause();
+  }
   /// By a sample that was measured at `stamp` [s].
   void correct(const solver::State& measured, double stamp) noexcept;
   /// Joints and base of `state` become those of the virtual robot.
@@ -107,6 +115,7 @@ class VirtualRobot {
   Odometry pose_;
   LoopInput wheels_, base_;
   std::optional<ContactResponse> contact_;
+  std::optional<ContactRelease> release_;
   Eigen::VectorXd qdd_;
   std::vector<Past> past_;  ///< a ring
   std::size_t updates_ = 0;

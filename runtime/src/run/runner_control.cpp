@@ -5,6 +5,16 @@
 
 namespace zwang::runtime {
 
+namespace {
+
+/// Whether the reason of a stop leaves samples, wheels and their motors to be trusted.
+bool leaves_what_is_felt(EventCode reason) noexcept {
+  return reason == EventCode::requested || reason == EventCode::watchdog || reason == EventCode::solver ||
+         reason == EventCode::bad_torque;
+}
+
+}  // namespace
+
 bool Runner::Parts::control() noexcept {
   sample.time = estimated.time;
   const bool is_virtual = drive && drive->has_virtual_robot();
@@ -110,7 +120,10 @@ void Runner::Parts::put_command(bool good, bool solved) noexcept {
     const bool is_contrary =
         guard.reason() == EventCode::not_followed || guard.reason() == EventCode::effort_lost;
     const int suspect = is_contrary ? event_signal::joint_of(guard.stop_event().signal) : -1;
-    drive->brake(good && !is_a_wheel_dead ? &estimated.state.qd : nullptr, suspect, command);
+    const bool is_measured = good && !is_a_wheel_dead;
+    const bool is_felt =
+        is_measured && leaves_what_is_felt(guard.reason()) && !drive->look_for_samples(estimated.time);
+    drive->brake(is_measured ? &estimated.state.qd : nullptr, suspect, command, is_felt);
     tau.setZero();
   } else if (solved) {
     command.torque = tau;
