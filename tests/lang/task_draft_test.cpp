@@ -178,6 +178,22 @@ TEST(RestingYaw, is_where_it_comes_if_the_friction_of_the_wall_holds_the_corner)
   }
 }
 
+// A base that slides along the wall is turned away from a yaw t beyond b, unless the friction is more than
+// tan(t - b): the wall's force then points past the base's origin to the other side.
+TEST(RestingYaw, is_square_beyond_the_corner_if_the_friction_turns_a_base_that_slides) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const std::vector<Eigen::Vector2d> front = {{0.3, -0.1}, {0.3, 0.1}, {-0.3, 0.3}, {-0.3, -0.3}};
+  const double corner = std::atan(0.1 / 0.3);  // 18.4 deg
+  for (const double yaw : {-35.0 * degree, 20.0 * degree, 30.0 * degree}) {
+    const double turns = std::tan(std::abs(yaw) - corner);
+    const auto rest = [&](double friction) {
+      return std::abs(resting_yaw(front, yaw, {.friction = friction, .slides = true}).value_or(3.0));
+    };
+    EXPECT_NEAR(rest(1.01 * turns), 0.0, 1e-6) << yaw;
+    EXPECT_GT(rest(0.99 * turns), std::abs(yaw)) << yaw;
+  }
+}
+
 // The corner is sqrt(0.13) m out: its lever from the yaw t is sqrt(0.13) m x sin(b - t).
 TEST(RestingYaw, is_where_it_comes_if_a_row_holds_the_heading_harder_than_the_wall_turns_it) {
   constexpr double degree = std::numbers::pi / 180.0;

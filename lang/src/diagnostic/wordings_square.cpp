@@ -16,23 +16,39 @@ std::string askew_figure(double angle) {
 std::string what_becomes_of(const ComesAskew& coming) {
   if (coming.how == Askew::turned_away) return "turns away from the wall";
   if (coming.how == Askew::rests) return "comes to rest " + askew_figure(coming.rests_at) + " askew";
+  if (coming.how == Askew::slowed)
+    return "turns more slowly than the exit asks for: against this row it takes " + figure(coming.row, "N m");
   std::string by;
   if (coming.friction > 0.0) by = "the wall's friction of " + figure(coming.friction, "");
-  if (coming.held > 0.0) by += (by.empty() ? "" : " and ") + figure(coming.held, "N m") + " about its origin";
+  if (coming.held > 0.0)
+    by += (by.empty() ? "" : " and ") + std::string("the floor's ") + figure(coming.held, "N m");
   return "stays so: " + by + " hold" + (coming.friction > 0.0 && coming.held > 0.0 ? "" : "s") + " it";
+}
+
+std::string unless(const ComesAskew& coming) {
+  if (coming.unless == Unless::friction)
+    return ", unless the wall's friction of " + figure(coming.friction, "") + " turns it square";
+  if (coming.unless == Unless::slides) return ", until it slides along the wall";
+  if (coming.unless != Unless::hit) return "";
+  const std::string square = ", unless the hit turns it square";
+  if (!std::isfinite(coming.by_hit)) return square + ": nothing bounds its speed";
+  return coming.by_hit > std::abs(coming.from) ? square
+                                               : square + ": by up to " + askew_figure(coming.by_hit);
 }
 
 }  // namespace
 
 Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
-                         const Span& exit) {
+                         const Span& exit, bool is_doubtful) {
   const std::string why = floor > 0.0 ? "a wall turns this base with " + figure(wall, "N m") +
                                             ", and it is held with " + figure(floor, "N m")
                                       : "the wheels hold the heading of this base, and no wall turns it";
   const std::string help = "drive `rz` to a measured angle, or take a base that a wall can turn";
   if (!exit.exists()) return warning("W621", span, "`" + axis + "` is free, but " + why, help);
-  return with_related(error("E621", span, "`" + axis + "` cannot tell square from stuck: " + why, help), exit,
-                      "this is true of a base that is stuck, too");
+  const std::string message = "`" + axis + "` cannot tell square from stuck: " + why;
+  return with_related(is_doubtful ? warning("W621", span, message + ", unless the hit turns it square", help)
+                                  : error("E621", span, message, help),
+                      exit, "this is true of a base that is stuck, too");
 }
 
 Diagnostic rests_askew(const Span& span, const std::string& axis, double askew, const Span& exit) {
@@ -50,7 +66,8 @@ Diagnostic comes_askew(const Span& span, const std::string& axis, const ComesAsk
   const std::string first =
       coming.tip.empty() ? "" : "`" + coming.tip + "` reaches ahead of the outline and touches first, and ";
   const std::string message = "`" + axis + "` cannot tell square from stuck: " + first + "from " +
-                              askew_figure(coming.from) + " askew the base " + what_becomes_of(coming);
+                              askew_figure(coming.from) + " askew the base " + what_becomes_of(coming) +
+                              unless(coming);
   std::string help = coming.tip.empty() ? "" : "fold the arm by `posture`, draw the `footprint` around it, ";
   if (coming.most > 0.0 && coming.tip.empty())
     help += "come at most " + askew_figure(coming.most) + " askew, ";

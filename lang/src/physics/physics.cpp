@@ -88,7 +88,8 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_travel(plan, *context.robot, asked.scene, remarks);
   ask_steering(context, plan, asked.held_steerings, probe, remarks);
   ask_hopping(context, plan, asked.conditions, asked.all, probe, remarks);
-  ask_square(plan, asked.held_steerings, asked.scene, is_start, probe, remarks);
+  ask_square(context, plan, asked.conditions.of_tasks[index], asked.held_steerings, asked.scene, is_start,
+             probe, remarks);
   ask_turned_slowly(context, plan, asked.conditions.of_tasks[index], probe, remarks);
   ask_freedoms(plan, probe, remarks);
   ask_askew(plan, probe, remarks);

@@ -124,9 +124,13 @@ void ask_steering(const CheckContext& context, const PlannedTask& plan, const st
 /// W645: a push across the way of driven casters, at what stands where the base may come.
 void ask_hopping(const CheckContext& context, const PlannedTask& plan, const ExitConditions& conditions,
                  const AllTasks& all, Probe& probe, Remarks& remarks);
-/// E621, W621: a heading that a wall is to turn, and cannot. `is_start`: the task begins where the scene puts
-/// the base.
-void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings,
+/// Below which turn the condition takes the axis to rest; none: it does not ask. [rad/s]
+std::optional<double> turn_at_rest(const CheckContext& context, const PlannedTask& plan,
+                                   const Condition& condition, const PlannedAxis& axis);
+/// E621, W621: a heading that a wall is to turn, and cannot. `conditions`: of the task's exits. `is_start`:
+/// the task begins where the scene puts the base.
+void ask_square(const CheckContext& context, const PlannedTask& plan,
+                const std::vector<Condition>& conditions, const std::vector<int>& held_steerings,
                 const std::optional<Scene>& scene, bool is_start, Probe& probe, Remarks& remarks);
 /// E633: a heading that a wall turns more slowly than an exit asks for. `conditions`: of the task's exits.
 void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,

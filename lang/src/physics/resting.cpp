@@ -2,6 +2,14 @@
 //
 // If a scene has a wall straight ahead of the start, the base comes as askew as it stands there. Else it is
 // asked from 20 deg to both sides, as the shipped tasks promise, and the answer is a warning.
+//
+// The law is of statics, and a hit turns the base before it rests. All of the motion is E = m v^2 / 2. After
+// the hit the base goes back with u, and turns with w. The push F brings it back after 2 m u / F:
+//
+//   dt = 2 m u w / F,  m u^2 + I w^2 <= m v^2  =>  dt <= m v^2 / F sqrt(m / I)
+//
+// A restitution e leaves e^2 of E to the next hit. All later ones turn the base by e^2 / (1 - e^2) as much:
+// by less than the bound, if e is below 0.7. A base that would rest square from dt less askew is warned of.
 #include "physics/resting.hpp"
 
 #include <Eigen/Geometry>
@@ -25,7 +33,7 @@ namespace {
 using Corners = std::vector<Eigen::Vector2d>;
 
 constexpr double degree_askew = std::numbers::pi / 180.0;
-constexpr double assumed_askew = 20.0 * degree_askew, least_askew = 5.0 * degree_askew;
+constexpr double assumed_askew = 20.0 * degree_askew;
 
 /// A base that rests farther than this is beside its front, on one of its sides. [rad]
 constexpr double to_a_side = 45.0 * degree_askew;
@@ -105,8 +113,42 @@ Corners with_tips(const Corners& outline, const std::vector<Tip>& tips, const st
   return plane::convex_hull(all);
 }
 
-wording::ComesAskew coming_askew(const Corners& outline, const std::vector<double>& yaws,
-                                 const WallGrip& grip, bool is_known) {
+/// The least and the most that may keep a base from turning square.
+struct Grips {
+  WallGrip least, most;
+};
+
+/// The wheels of a swivel hold the base sideways, until they have swivelled.
+bool has_swivels(const solver::Model& model) {
+  return std::any_of(model.wheels().begin(), model.wheels().end(),
+                     [](const solver::Wheel& wheel) { return wheel.holds_sideways && !wheel.roller_angle; });
+}
+
+/// The friction of a wall turns a base square that slides along it, and not before the base slides.
+Grips grips_of(const PushedToWall& pushed, const Robot& robot) {
+  const double friction = pushed.wall ? pushed.wall->friction : 0.0;
+  const double floor = pushed.floor / pushed.push.force, row = pushed.row / pushed.push.force;
+  Grips grips{{friction, floor, false}, {friction, floor + row, false}};
+  if (has_axle(robot.model)) return grips;
+  const bool slides = pushed.floor == 0.0;
+  grips.least.slides = slides;
+  if (!slides) grips.least.friction = 0.0;
+  if (slides && !has_swivels(robot.model)) grips.most.friction = 0.0;
+  return grips;
+}
+
+/// By which a hit turns the base at most: `dt`. [rad]
+double turned_by_hit(const PlannedAxis& heading, const PushedToWall& pushed, Probe& probe) {
+  const AxisFigures* ahead = probe.figures(*pushed.push.axis);
+  const AxisFigures* turn = probe.figures(heading);
+  if (ahead == nullptr || turn == nullptr || !(turn->mass > 0.0)) return solver::infinity;
+  return ahead->mass * pushed.speed * pushed.speed / pushed.push.force * std::sqrt(ahead->mass / turn->mass);
+}
+
+wording::ComesAskew coming_askew(const Corners& outline, const std::vector<double>& yaws, const Grips& grips,
+                                 const PushedToWall& pushed, double by_hit) {
+  const bool is_certain = !is_square(farthest_rest(outline, yaws, grips.least));
+  const WallGrip& grip = is_certain ? grips.least : grips.most;
   wording::ComesAskew coming;
   for (const double yaw : yaws) {
     const std::optional<double> rest = resting_yaw(outline, yaw, grip);
@@ -117,9 +159,22 @@ wording::ComesAskew coming_askew(const Corners& outline, const std::vector<doubl
     if (!rest || std::abs(*rest) > to_a_side) coming.how = wording::Askew::turned_away;
     if (rest && std::abs(*rest - yaw) < 1e-12) coming.how = wording::Askew::held;
   }
-  coming.most = largest_square_start(outline, grip);
-  coming.is_sure = is_known || coming.most < least_askew;
-  coming.friction = grip.friction;
+  const bool is_slowed = coming.how == wording::Askew::held && !is_certain && pushed.row > 0.0;
+  if (is_slowed) coming.how = wording::Askew::slowed;
+  coming.most = largest_square_start(outline, grips.most);
+  const double hit = std::abs(coming.from) - by_hit;
+  const bool is_askew_yet =
+      hit > round_ahead && !is_square(resting_yaw(outline, std::copysign(hit, coming.from), grips.least));
+  coming.is_sure =
+      is_certain && (pushed.wall ? is_askew_yet : largest_square_start(outline, grips.least) == 0.0);
+  if (pushed.wall && !coming.is_sure && !is_slowed)
+    coming.unless = is_certain                           ? wording::Unless::hit
+                    : coming.how == wording::Askew::held ? wording::Unless::slides
+                                                         : wording::Unless::friction;
+  coming.by_hit = by_hit;
+  coming.friction = pushed.wall ? pushed.wall->friction : 0.0;
+  coming.held = pushed.floor;
+  coming.row = pushed.row;
   return coming;
 }
 
@@ -155,20 +210,19 @@ void ask_rest(const PlannedAxis& axis, const PushedToWall& pushed, const Span& e
   const Corners outline = outline_along(pushed.push, probe);
   if (outline.size() < 3) return;
   const Span& span = axis.text->name.span;
-  if (pushed.held == 0.0) {
+  if (pushed.floor + pushed.row == 0.0) {
     const std::optional<double> round = farthest_rest(outline, both_sides(assumed_askew), {});
     const bool is_round = round && !is_square(round) && std::abs(*round) < to_a_side;
     if (is_round) return remarks.add(wording::rests_askew(span, axis.path, std::abs(*round), exit));
   }
-  WallGrip grip{.lever = pushed.held / pushed.push.force};
-  if (pushed.wall && has_axle(probe.robot().model)) grip.friction = pushed.wall->friction;
+  const Grips grips = grips_of(pushed, probe.robot());
   const std::vector<double> yaws = pushed.wall ? std::vector{pushed.wall->askew} : both_sides(assumed_askew);
   const Tip* first = nullptr;
   const std::vector<Tip> tips = tips_beyond(outline, pushed, probe);
   const Corners touching = with_tips(outline, tips, yaws, first);
-  if (is_square(farthest_rest(touching, yaws, grip))) return;
-  wording::ComesAskew coming = coming_askew(touching, yaws, grip, pushed.wall.has_value());
-  coming.held = pushed.held;
+  if (is_square(farthest_rest(touching, yaws, grips.most))) return;
+  const double by_hit = turned_by_hit(axis, pushed, probe);
+  wording::ComesAskew coming = coming_askew(touching, yaws, grips, pushed, by_hit);
   if (first != nullptr) coming.tip = first->name;
   remarks.add(wording::comes_askew(span, axis.path, coming, exit));
 }

@@ -22,7 +22,9 @@ std::optional<WallAhead> wall_ahead(const std::optional<Scene>& scene, const Pus
 /// A base that is pushed to a wall.
 struct PushedToWall {
   Push push;
-  double held = 0.0;              ///< [N m] that holds its heading
+  double floor = 0.0;             ///< [N m] with which the floor holds its heading
+  double row = 0.0;               ///< [N m] below which a row makes it seem to rest
+  double speed = 0.0;             ///< [m/s] at most, with which it arrives
   std::optional<WallAhead> wall;  ///< none: nobody knows how the base comes to it
 };
 /// E621, W621: the base rests askew. `exit`: asks for the rest of the heading.

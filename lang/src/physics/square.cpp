@@ -9,7 +9,12 @@
 // m_i of the mass, at x_i. x is the middle of all wheels. E621: an exit asks for the rest of the heading. A
 // base that is stuck rests, too. W621: the heading is free, and no exit asks for it.
 //
-// A heading that a row keeps still within a force range is turned, too, once the wall is stronger than both.
+// A hit at the speed v turns a scrubbed base from the angle of the scene by m v^2 / 2 / (mu g .. - F b) at
+// most.
+//
+// A row that keeps the heading still asks for a speed, and the wall turns the base with w = F b T / I against
+// it. An exit at w_0 is true of a base that turns more slowly: below I w_0 / T, and below the row's own
+// force.
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +22,7 @@
 #include "physics/push.hpp"
 #include "physics/questions.hpp"
 #include "physics/resting.hpp"
+#include "zwang/lang/task_draft.hpp"
 
 namespace zwang::lang {
 
@@ -55,45 +61,67 @@ std::optional<Span> asked_by(const TaskText& task, const PlannedAxis& axis) {
   return std::nullopt;
 }
 
-/// The moment [N m] above which a row that keeps the axis still gives way. nullopt: it never gives way.
-std::optional<double> holds_back(const PlannedAxis& axis) {
+/// The moment [N m] below which a row that keeps the axis still lets an exit take it to rest while a wall
+/// turns the base. nullopt: no such row, or its force has no bound.
+std::optional<double> slowed_by(const CheckContext& context, const PlannedTask& plan,
+                                const std::vector<Condition>& conditions, const PlannedAxis& axis,
+                                Probe& probe) {
   const auto& range = axis[Quantity::force];
-  if (!axis.stands_still() || !range || axis.text == nullptr) return std::nullopt;
-  return std::max(range->high, -range->low);
+  const AxisFigures* figures = probe.figures(axis);
+  if (!axis.stands_still() || !range || axis.text == nullptr || figures == nullptr) return std::nullopt;
+  double fastest = 0.0;  // [rad/s]
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const bool is_asked = plan.task->exits[i].target.text != "failed" && !conditions[i].nodes.empty();
+    if (is_asked) fastest = std::max(fastest, turn_at_rest(context, plan, conditions[i], axis).value_or(0.0));
+  }
+  const double moment = fastest > 0.0 ? figures->mass * fastest / axis.time_constant : 0.0;
+  return std::min(std::max(range->high, -range->low), moment);
 }
 
-void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
+/// Whether a hit may turn a scrubbed base square.
+bool is_struck_square(const PushedToWall& pushed, double wall, const AxisFigures& ahead) {
+  if (!pushed.wall) return false;
+  const double turned = 0.5 * ahead.mass * pushed.speed * pushed.speed / (pushed.floor - wall);  // [rad]
+  return std::abs(pushed.wall->askew) <= turned + round_ahead;
+}
+
+/// `row`: below this moment a row makes the base seem to rest.
+void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, const std::optional<double>& row,
                  const std::vector<int>& held_steerings, const std::optional<Scene>& scene, bool is_start,
                  Probe& probe, Remarks& remarks) {
   const bool is_heading = axis.move.body == 0 && axis.is_placed && !axis.is_feature() && axis.turns() &&
                           !probe.is_out_of_plane(axis);
   const Push push = is_heading ? push_of(plan, probe) : Push{};
   const AxisFigures* figures = push.axis != nullptr ? probe.figures(axis) : nullptr;
-  if (figures == nullptr) return;
+  const AxisFigures* ahead = figures != nullptr ? probe.figures(*push.axis) : nullptr;
+  if (ahead == nullptr) return;
   const bool is_held = std::isinf(figures->mass) && (figures->is_held || !held_steerings.empty());
   const double wall = push.force * longest_lever(push, probe);
-  const double floor = scrub(probe.robot(), scene.value_or(Scene{}).floor_friction) + own;
+  const double floor = scrub(probe.robot(), scene.value_or(Scene{}).floor_friction);
+  const double speed = std::min(plan.speed_limit(*push.axis), most_speed(plan, {0, {}, {}}, probe).most);
+  const PushedToWall pushed{push, floor, row.value_or(0.0), speed,
+                            is_start ? wall_ahead(scene, push, probe) : std::nullopt};
   const std::optional<Span> exit = asked_by(*plan.task, axis);
   if (!is_held && floor <= wall) {
-    if (exit)
-      ask_rest(axis, {push, floor, is_start ? wall_ahead(scene, push, probe) : std::nullopt}, *exit, probe,
-               remarks);
+    if (exit) ask_rest(axis, pushed, *exit, probe, remarks);
     return;
   }
-  if ((is_held || own > 0.0) && !exit) return;  // W609, or a row that is meant to hold
+  if ((is_held || row) && !exit) return;  // W609, or a row that is meant to hold
+  const bool is_doubtful = !is_held && is_struck_square(pushed, wall, *ahead);
   remarks.add(wording::cannot_square(axis.text->name.span, axis.path, is_held ? 0.0 : floor, wall,
-                                     exit.value_or(Span{})));
+                                     exit.value_or(Span{}), is_doubtful));
 }
 
 }  // namespace
 
-void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings,
+void ask_square(const CheckContext& context, const PlannedTask& plan,
+                const std::vector<Condition>& conditions, const std::vector<int>& held_steerings,
                 const std::optional<Scene>& scene, bool is_start, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.free)
-    ask_heading(plan, axis, 0.0, held_steerings, scene, is_start, probe, remarks);
+    ask_heading(plan, axis, std::nullopt, held_steerings, scene, is_start, probe, remarks);
   for (const PlannedAxis& axis : plan.axes) {
-    if (const std::optional<double> own = holds_back(axis))
-      ask_heading(plan, axis, *own, held_steerings, scene, is_start, probe, remarks);
+    if (const std::optional<double> row = slowed_by(context, plan, conditions, axis, probe))
+      ask_heading(plan, axis, row, held_steerings, scene, is_start, probe, remarks);
   }
 }
 

@@ -22,7 +22,8 @@ namespace {
 /// As far as that the shipped scenes let bases come askew. [rad]
 constexpr double farthest_askew = 25.0 * std::numbers::pi / 180.0;
 
-/// Below which turn the condition takes the axis to rest; none: it does not ask. [rad/s]
+}  // namespace
+
 std::optional<double> turn_at_rest(const CheckContext& context, const PlannedTask& plan,
                                    const Condition& condition, const PlannedAxis& axis) {
   const auto cases = cases_of(context, condition, plan.task->groups);
@@ -42,8 +43,6 @@ std::optional<double> turn_at_rest(const CheckContext& context, const PlannedTas
   }
   return fastest;
 }
-
-}  // namespace
 
 void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,
                        const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks) {

@@ -3,12 +3,13 @@
 // The wall touches the foremost corner p and presses along -x. The motors push through the outline's origin.
 // The moment of the wall about the origin turns the base:
 //
-//   N (|p_y| - mu p_x) > M
+//   N (|p_y| - mu p_x) > M     wheels hold the base sideways
+//   N |p_y - mu p_x sgn t| > M  it slides
 //
-// mu: the wall's friction. It holds the corner that slides along the wall, if the wheels hold the base
-// sideways. A base that the wheels let go sideways gives way there instead, and turns about the corner. M:
-// what holds the heading. The base turns until an edge lies on the wall whose ends lie on both sides of the
-// origin, or until M is more.
+// mu: the wall's friction. M: what holds the heading. If wheels hold the base sideways, the corner slides as
+// the base turns, and the friction is against either turn. Else the push drives the base sideways, to the
+// side of its yaw t. The friction acts to the other side, and turns the base square. The base turns until an
+// edge lies on the wall whose ends lie on both sides of the origin, or until M is more.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
@@ -31,8 +32,9 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
       if (turned(i, angle).x() > turned(foremost, angle).x()) foremost = i;
     }
     const Eigen::Vector2d corner = turned(foremost, angle);
-    const double side = corner.y();
-    if (std::abs(side) < grip.friction * corner.x() + grip.lever) return angle;
+    const double rub = grip.friction * corner.x();
+    const double side = grip.slides ? corner.y() - std::copysign(rub, angle) : corner.y();
+    if (std::abs(side) < (grip.slides ? 0.0 : rub) + grip.lever) return angle;
     // To the left of the origin the base turns left, and its edge to the right comes to the wall; and vice
     // versa.
     const std::size_t next = side > 0.0 ? foremost + count - 1 : foremost + 1;

@@ -50,8 +50,9 @@ ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
 /// What keeps a base that a wall presses on from turning.
 struct WallGrip {
-  double friction = 0.0;  ///< of the wall, at a base that its wheels hold sideways
+  double friction = 0.0;  ///< of the wall
   double lever = 0.0;     ///< [m] the moment that holds the heading, over the push
+  bool slides = false;    ///< no wheel holds the base sideways: it slides along the wall
 };
 /// The yaw [rad] at which the outline comes to rest against a wall across x. The base is pushed to the wall
 /// from `yaw`, and turns about the outline's origin. No value: the base turns by more than 90 deg first.
