@@ -19,10 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-lang::Program load(const fs::path& task, const fs::path& scene) {
+lang::Program load(const fs::path& task, const fs::path& scene,
+                   const char* robot = "robots/mecanum_arm_base.yaml") {
   lang::Diagnostics diagnostics;
   lang::LoadOptions options;
-  options.robot = zwang::test::specs("robots/mecanum_arm_base.yaml");
+  options.robot = zwang::test::specs(robot);
   options.scene = scene;
   options.root = "/";
   const auto program = lang::load(task, options, diagnostics);
@@ -69,8 +70,9 @@ class ArmWatch {
 // The base presses with all 20 N. With a model of an arm that hangs loose, and falls, it would be 12 N.
 TEST(UnusedArm, StaysWhereItIsAndTheBaseKeepsItsNewtons) {
   lang::Program program =
-      load(zwang::test::specs("wall_align.yaml"), zwang::test::specs("scenes/wall_far.yaml"));
-  program.robot.posture.setZero();  // the arm points straight up, and would fall to any side
+      load(zwang::test::specs("wall_align.yaml"), zwang::test::specs("scenes/wall_far.yaml"),
+           "robots/mecanum_arm_folded.yaml");  // stretched out, the arm would touch the wall first: E621
+  program.robot.posture.setZero();             // the arm points straight up, and would fall to any side
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());
