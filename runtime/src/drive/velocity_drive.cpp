@@ -200,9 +200,9 @@ void VelocityDrive::let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect
     Wheel* fastest = nullptr;
     double most = 0.0;
     for (Wheel& wheel : wheels_) {
-      const double gained = wheel.radius * (std::abs(qd(wheel.joint)) - std::abs(wheel.rate_then));
-      if (wheel.is_let_go || gained <= most) continue;
-      most = gained;
+      const double faster_by = wheel.radius * (std::abs(qd(wheel.joint)) - std::abs(wheel.rate_then));
+      if (wheel.is_let_go || faster_by <= most) continue;
+      most = faster_by;
       fastest = &wheel;
     }
     if (fastest != nullptr) fastest->is_let_go = true;

@@ -49,8 +49,8 @@ bool ActuatorWatch::is_distinct(const Motor& motor, const solver::FreeMotions& m
   const auto T = motions.joint.row(motor.joint).head(motions.count);
   return std::any_of(motors_.begin(), motors_.end(), [&](const Motor& other) {
     const auto T_other = motions.joint.row(other.joint).head(motions.count);
-    const double along = T.dot(T_other);
-    return along * along < alike * alike * T.squaredNorm() * T_other.squaredNorm();
+    const double common = T.dot(T_other);
+    return common * common < alike * alike * T.squaredNorm() * T_other.squaredNorm();
   });
 }
 
