@@ -34,7 +34,7 @@ double quantile_of(const std::vector<double>& sorted, double p);
 
 /// Spearman's: -1 to 1; equal values share the mean of their ranks. nullopt where one of the two is constant.
 std::optional<double> rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
-/// The same of the ranks within each group. So a group whose values are all larger does not hide what goes
+/// Spearman's, of the ranks within each group. A group whose values are all larger does not hide what goes
 /// with them inside of it.
 std::optional<double> rank_correlation_within(const std::vector<double>& x, const std::vector<double>& y,
                                               const std::vector<std::size_t>& group);

@@ -7,10 +7,7 @@
 namespace zwang::solver {
 
 inline bool is_same(const ForceVector& one, const ForceVector& other) {
-  const double* const a = one.angular.data();
-  const double* const b = other.angular.data();
-  const auto differs = (two(a) != two(b)) | (two(a + 2) != two(b + 2)) | (two(a + 4) != two(b + 4));
-  return (differs[0] | differs[1]) == 0;
+  return are_same<6>(one.angular.data(), other.angular.data());
 }
 
 inline bool has_same_axis(const Row& one, const Row& other) {

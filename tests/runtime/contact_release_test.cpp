@@ -20,8 +20,7 @@ namespace zwang::runtime {
 namespace {
 
 lang::Program near_far_wall(const std::string& robot) {
-  lang::Program program = zwang::test::shipped_files("wall_align.yaml", "robots/feels/" + robot + ".yaml",
-                                                     "scenes/wall_far.yaml");
+  lang::Program program = zwang::test::feeling_program("wall_align", robot, "wall_far");
   program.scene->start_at = {0.72, 0.0};
   program.scene->start_yaw = 0.0;
   return program;

@@ -19,8 +19,7 @@ namespace zwang::runtime {
 namespace {
 
 lang::Program with_wrench(const std::string& robot) {
-  return zwang::test::shipped_files("wall_align.yaml", "robots/feels/" + robot + ".yaml",
-                                    "scenes/wall_far.yaml");
+  return zwang::test::feeling_program("wall_align", robot, "wall_far");
 }
 
 struct CounteredWheel {

@@ -21,8 +21,7 @@ namespace zwang::runtime {
 namespace {
 
 lang::Program with_efforts(const std::string& robot) {
-  return zwang::test::shipped_files("wall_align.yaml", "robots/feels/" + robot + ".yaml",
-                                    "scenes/wall_far.yaml");
+  return zwang::test::feeling_program("wall_align", robot, "wall_far");
 }
 
 /// A quarter of a base behind a loop. It starts with 0.3 m/s^2, keeps 0.1 m/s, and meets a wall of 10 kN/m.

@@ -18,11 +18,6 @@
 namespace zwang::runtime {
 namespace {
 
-lang::Program feeling(const std::string& task, const std::string& robot, const std::string& scene) {
-  return zwang::test::shipped_files(task + ".yaml", "robots/feels/" + robot + ".yaml",
-                                    "scenes/" + scene + ".yaml");
-}
-
 /// qdd of a robot at rest that no row holds, after `samples` of what the sensor tells.
 Eigen::VectorXd accelerated(const lang::Program& led, const solver::ForceVector& wrench, int samples) {
   const lang::Robot& robot = led.robot;
@@ -54,7 +49,8 @@ double driven_mass(const lang::Robot& robot) {
 
 /// F = alpha M a.
 TEST(FeltContact, APushAcceleratesTheVirtualRobotByItsMass) {
-  const lang::Program program = feeling("wall_align", "mecanum_wrench_50_hz", "wall_far");
+  const lang::Program program =
+      zwang::test::feeling_program("wall_align", "mecanum_wrench_50_hz", "wall_far");
   const lang::Program led = led_program(program);
   const double push = -30.0;
   const Eigen::VectorXd qdd = accelerated(led, {{0.0, 0.0, 0.0}, {push, 0.0, 0.0}}, 1);
@@ -87,7 +83,8 @@ solver::Vector3 felt_by_effort(const lang::Program& led, double t, double gain) 
 
 /// 0 = sum t/R + w at rest. In free motion the torques accelerate m, and w is 0.
 TEST(FeltContact, TorquesThatTheMotionDoesNotNeedArePressedAgainst) {
-  const lang::Program program = feeling("wall_align", "mecanum_effort_50_hz", "wall_far");
+  const lang::Program program =
+      zwang::test::feeling_program("wall_align", "mecanum_effort_50_hz", "wall_far");
   const lang::Program led = led_program(program);
   const double R = program.robot.model.wheels()[0].radius;
   EXPECT_NEAR(felt_by_effort(led, 0.5, 0.0).x(), -4.0 * 0.5 / R, 1e-6);
@@ -98,7 +95,8 @@ TEST(FeltContact, TorquesThatTheMotionDoesNotNeedArePressedAgainst) {
 
 /// A push to the left at the bumper turns the base as its moment about the origin does.
 TEST(FeltContact, AForceAtTheSensorHasItsMomentAboutTheBase) {
-  const lang::Program led = led_program(feeling("wall_align", "mecanum_wrench_50_hz", "wall_far"));
+  const lang::Program led =
+      led_program(zwang::test::feeling_program("wall_align", "mecanum_wrench_50_hz", "wall_far"));
   const Eigen::VectorXd at_bumper = accelerated(led, {{0.0, 0.0, 0.0}, {0.0, 10.0, 0.0}}, 1);
   lang::Program at_origin = led;
   at_origin.robot.drive.feels.frame = led.robot.base_frame;
@@ -107,7 +105,7 @@ TEST(FeltContact, AForceAtTheSensorHasItsMomentAboutTheBase) {
 }
 
 TEST(FeltContact, FramesJointsAndWheelsOfTheLedRobotKeepTheirNumbers) {
-  const lang::Program program = feeling("wall_align", "diff_wrench_50_hz", "wall_far");
+  const lang::Program program = zwang::test::feeling_program("wall_align", "diff_wrench_50_hz", "wall_far");
   const solver::Model& real = program.robot.model;
   const solver::Model led = led_program(program).robot.model;
   ASSERT_EQ(led.frames().size(), real.frames().size());
@@ -130,7 +128,7 @@ struct Aligned {
 };
 
 Aligned align(const std::string& robot, double stiffness) {
-  lang::Program program = feeling("wall_align", robot, "wall_far");
+  lang::Program program = zwang::test::feeling_program("wall_align", robot, "wall_far");
   program.scene->objects[0].stiffness = stiffness;
   program.scene->start_at = {0.6, 0.0};
   program.robot.drive.feels.noise = 0.0;
@@ -162,7 +160,7 @@ TEST(FeltContact, TheWallSquaresTheBaseUpWithTheForceOfTheRow) {
 }
 
 TEST(FeltContact, ReplaysBitByBitAndAllocatesNothing) {
-  lang::Program program = feeling("wall_align", "mecanum_wrench_100_hz", "wall_far");
+  lang::Program program = zwang::test::feeling_program("wall_align", "mecanum_wrench_100_hz", "wall_far");
   program.scene->start_at = {0.72, 0.0};
   test::expect_replay_without_heap_calls(program, 3000);
 }

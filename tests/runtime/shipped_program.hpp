@@ -32,4 +32,10 @@ inline lang::Program shipped_program(const std::string& task, const std::string&
                        scene.empty() ? "" : "scenes/" + scene + ".yaml");
 }
 
+/// On a base that feels: `mecanum_wrench_50_hz` is robots/feels/mecanum_wrench_50_hz.yaml.
+inline lang::Program feeling_program(const std::string& task, const std::string& robot,
+                                     const std::string& scene) {
+  return shipped_files(task + ".yaml", "robots/feels/" + robot + ".yaml", "scenes/" + scene + ".yaml");
+}
+
 }  // namespace zwang::test

@@ -28,8 +28,8 @@ namespace zwang::runtime {
 ///    a padded wall takes work, first by its damper, then by its spring, and is even in between.
 ///  - Place. Where the wheel rolls on by `travel`, a contact between the robot and a standing object gives
 ///    way or grows. A motor's force keeps its direction and size `closely` meanwhile, farther than a spring
-///    of the same depth does (ContactDepth). The robot goes `along` it meanwhile: a base that turns about a
-///    corner at the wall rolls the wheel beside it, too, but hardly goes along the force of the corner. Its
+///    of the same depth does (ContactDepth). The robot goes `along` it meanwhile. A base that turns about a
+///    corner at the wall rolls the wheel beside it, too. It hardly goes along the force of the corner. Its
 ///    onset does not matter. So a motor that failed without a command is found between two hits. A cart in
 ///    tow moves along, too, and in a bend its pull turns slowly through all directions. So a force that came
 ///    into this direction slower than in `turning` is not a motor's. A motor that obeyed since its command

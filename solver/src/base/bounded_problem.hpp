@@ -162,6 +162,9 @@ class BoundedProblem {
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
 
+  static constexpr bool is_limit(RowKind kind) noexcept {
+    return kind == RowKind::upper || kind == RowKind::lower;
+  }
   /// Limits are posed where a level is not plain.
   void take_row(int i, const Row& row, double d) noexcept {
     Entry& e = entry(i);
@@ -169,7 +172,7 @@ class BoundedProblem {
     e.source = &row;
     if (row.level != last_level_) note_level(row.level);
     e.is_posed = false;
-    if (row.kind == RowKind::upper || row.kind == RowKind::lower) {
+    if (is_limit(row.kind)) {
       limits_[static_cast<std::size_t>(limit_count_++)] = i;
       note_limit(i);
     } else {

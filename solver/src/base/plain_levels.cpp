@@ -141,7 +141,7 @@ bool BoundedProblem::park_dependent(int k) noexcept {
   return true;
 }
 
-/// Those of the limits that push come first. The forces of the others are added to work_.
+/// The limits that push come first. The forces of the others are added to work_.
 void BoundedProblem::list_free_rows() noexcept {
   copy(fixed_, work_);
   free_rows_.clear();

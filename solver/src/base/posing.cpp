@@ -13,10 +13,6 @@ namespace zwang::solver {
 
 namespace {
 
-bool is_limit_kind(RowKind kind) {
-  return kind == RowKind::upper || kind == RowKind::lower;
-}
-
 bool is_firm(const Row& row) {
   return !std::isfinite(row.weight);
 }
@@ -69,7 +65,7 @@ void BoundedProblem::take_source(int i) noexcept {
   }
   e.reset();
   e.kind = row.kind;
-  e.is_limit = is_limit_kind(row.kind);
+  e.is_limit = is_limit(row.kind);
   e.quantity = row.quantity;
   e.level = row.level;
   e.lo = row.lo;
@@ -85,7 +81,7 @@ void BoundedProblem::take_source(int i) noexcept {
 
 bool BoundedProblem::can_be_idle(int i) const noexcept {
   const Entry& e = entries_[static_cast<std::size_t>(i)];
-  return motors_reach_all_ && is_limit_kind(e.source->kind) && is_firm(*e.source) &&
+  return motors_reach_all_ && is_limit(e.source->kind) && is_firm(*e.source) &&
          entries_[static_cast<std::size_t>(e.axis)].reachable;
 }
 
@@ -95,7 +91,7 @@ int& BoundedProblem::last_beside(int i) noexcept {
   return entry(i).source->kind == RowKind::upper ? last.upper : last.lower;
 }
 
-/// Whether a limit lies beyond a listed one of its level. Those beyond it are idle, and listed no more.
+/// Whether a limit lies beyond a listed one of its level. Listed ones beyond it are idle, and leave the list.
 bool BoundedProblem::is_beyond_another(int i) noexcept {
   const Row& row = *entry(i).source;
   const double side = row.kind == RowKind::upper ? 1.0 : -1.0;

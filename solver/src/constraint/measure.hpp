@@ -31,18 +31,10 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
 
 static_assert(sizeof(Pose) == 12 * sizeof(double) && sizeof(MotionVector) == 6 * sizeof(double));
 
-/// Number by number, for an even count of them.
-template <int count>
-bool is_same(const double* a, const double* b) noexcept {
-  auto differs = two(a) != two(b);
-  for (int k = 2; k < count; k += 2) differs |= two(a + k) != two(b + k);
-  return (differs[0] | differs[1]) == 0;
-}
-
 /// The twist of a frame on a body is ignored.
 inline bool is_same(const AttachedFrame& one, const AttachedFrame& other) noexcept {
-  return one.body == other.body && is_same<12>(one.pose.rotation.data(), other.pose.rotation.data()) &&
-         (one.body >= 0 || is_same<6>(one.twist.angular.data(), other.twist.angular.data()));
+  return one.body == other.body && are_same<12>(one.pose.rotation.data(), other.pose.rotation.data()) &&
+         (one.body >= 0 || are_same<6>(one.twist.angular.data(), other.twist.angular.data()));
 }
 
 /// Whether two constraints measure the same axis of the same frames.
