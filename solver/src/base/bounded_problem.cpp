@@ -46,6 +46,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       fixed_(Vector::Zero(dimension)),
       work_(Vector::Zero(dimension)),
       solved_(Vector::Zero(dimension)),
+      felt_(Vector::Zero(dimension)),
       frozen_(RowMajorMatrix::Zero(dimension, dimension)),
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
       inverse_pivots_(Vector::Zero(dimension)),
@@ -63,8 +64,8 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       free_nu_(Vector::Zero(dimension + 1)),
       program_(2 * rows + motors, dimension, dimension + rows) {
   for (std::vector<int>* list :
-       {&posed_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &levels_, &forces_, &motions_,
-        &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_, &later_motions_})
+       {&posed_, &posed_sums_, &folded_, &waiting_, &awake_, &idle_, &sums_, &drives_, &levels_, &forces_,
+        &motions_, &limits_above_, &tied_, &limited_axes_, &pushing_, &pushed_, &free_rows_, &later_motions_})
     list->reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));

@@ -239,6 +239,7 @@ class BoundedProblem {
   Change drive_plainly() noexcept;
   Change change_drivers() noexcept;
   Change change_limits(int level) noexcept;
+  void release(int limit) noexcept;
   bool let_push(End& end, int level) noexcept;
   bool find_plain_motion(int level, int max_rounds) noexcept;
   void settle(const Vector& p) noexcept;
@@ -259,7 +260,12 @@ class BoundedProblem {
   void start_sums(int level) noexcept;
   bool sum_counts(int i, int level) const noexcept;
   double sum_of(int i, const Vector& p) noexcept;
+  bool sum_holds(int i, const Vector& p) noexcept;
   bool sums_hold(int level, const Vector& p) noexcept;
+  void list_sums(int level) noexcept;
+  void let_limits_wait() noexcept;
+  bool pose_broken(int level) noexcept;
+  void take_felt(int n, int level) noexcept;
   bool limits_above_hold(int first) noexcept;
   bool limits_rest(int level) noexcept;
   /// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
@@ -302,11 +308,15 @@ class BoundedProblem {
   bool find_motion(int level, int max_iterations) noexcept;
   void pose_rows() noexcept;
   void pose_limits_above() noexcept;
-  void resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept;
+  /// Motors take part with all sums, sums with the limits above.
+  enum class Posed { rows, sums, motors };
+  void resize_program(int n, int level, int curvature_rows, Posed posed) noexcept;
   void pose_multiplier(int k, int level) noexcept;
-  void pose_motion(int n, int level, bool with_motors) noexcept;
-  void pose_motors(int n, int level) noexcept;
-  void pose_sums(int n, int level, int variable, int equation) noexcept;
+  bool move_within_sums(int level, int max_iterations) noexcept;
+  void pose_motion(int n, int level, Posed posed) noexcept;
+  void pose_motors(int n) noexcept;
+  void pose_kept(int n, int level, int variable, int equation) noexcept;
+  void pose_sums(int n, int variable, int equation) noexcept;
   void take_p(int n) noexcept;
   void take_limits(int first) noexcept;
   void take_multipliers(int level) noexcept;
@@ -337,6 +347,7 @@ class BoundedProblem {
   Vector p_;                        ///< sum of the constraint forces so far
   Vector fixed_;                    ///< its part that the present stage cannot change
   Vector work_, solved_;
+  Vector felt_;            ///< the motion that rows feel where sums or limits above stand in the way
   RowMajorMatrix frozen_;  ///< orthonormal rows: the directions that the levels above have closed
   int frozen_count_ = 0;
   RowMajorMatrix gram_;    ///< T'T of the shared motors is G D G': G^-1, whose diagonal is 1 and not written
@@ -358,6 +369,7 @@ class BoundedProblem {
       limits_above_;                 ///< rows of the present level that take part, by what they are
   std::vector<Sides> last_on_axis_;  ///< by axis: the last limit of each side
   std::vector<int> posed_;           ///< row of each variable of the present stage
+  std::vector<int> posed_sums_;      ///< sums of the present stage that take part
   std::vector<int> folded_;          ///< rows of the present stage that need not be solved for
   std::vector<int> waiting_;         ///< limits that join it when it would break them
   std::vector<Sides> nearest_;  ///< by axis: of the firm limits of the levels above those with the least room

@@ -18,7 +18,9 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double ample_pivot = 1e-3;  // of a row, its share that the others leave: no step to refine
+// Of a row, its share that the others leave. V V' loses its digits with 1/share, a stage refines its step.
+constexpr double ample_pivot = 1e-3;
+// Mostly it takes one to four. Of a thousand busy problems one goes in circles; a stage solves that.
 constexpr int most_rounds = 10;
 
 }  // namespace
@@ -110,23 +112,27 @@ double BoundedProblem::parked_force(std::size_t k) noexcept {
   return parked_[k] > 0 ? e.hi : e.lo;
 }
 
-/// The k-th free row depends on those before, B_k = sum c_l B_l, as drivers do that want what a limit
-/// forbids. The limit pushes on, and the drivers against it, without any motion:  nu_k += t, nu_l -= c_l t.
-/// The driver that meets its bound first stands there. False where there is none.
+/// The k-th free row depends on those before, V_k = sum c_l V_l, as drivers do that want what a limit
+/// forbids. The rows push against each other without any motion:  nu_k += t, nu_l -= c_l t. Of both ways the
+/// one leads down that has (d - B.p)' nu rise. The driver that meets its bound first stands there, and a
+/// limit that would have to pull is left alone. False where neither is, or where the ways tie.
 bool BoundedProblem::park_dependent(int k) noexcept {
   double* const rate = free_work_.data();
   for (int l = 0; l < k; ++l) rate[l] = -free_factor_(k, l);
   for (int l = k - 1; l > 0; --l) add_multiple(l, -rate[l], &free_factor_(l, 0), rate);
   rate[k] = 1.0;
-  int newest = -1;
-  for (int l = 0; l <= k && is_one_sided(free_rows_[static_cast<std::size_t>(l)]); ++l) newest = l;
-  if (newest < 0 || rate[newest] == 0.0) return false;
-  const bool is_upper = entry(free_rows_[static_cast<std::size_t>(newest)]).kind == RowKind::upper;
-  const double way = (rate[newest] > 0.0) == is_upper ? -1.0 : 1.0;
+  double gain = 0.0, size = 0.0;  // of (d - B.p)' nu
+  for (int l = 0; l <= k; ++l) {
+    const double term = rate[l] * free_nu_(l);
+    gain += term;
+    size += std::abs(term);
+  }
+  if (std::abs(gain) <= tie * size) return false;
+  const double way = std::copysign(1.0, gain);
   double least = infinity;
   int first = -1;
   bool goes_up = false;
-  for (int l = newest + 1; l <= k; ++l) {
+  for (int l = 0; l <= k; ++l) {
     const Entry& e = entry(free_rows_[static_cast<std::size_t>(l)]);
     const double speed = way * rate[l] * e.inverse_reach;
     const double room = speed > 0.0 ? e.hi - e.plain_nu : e.plain_nu - e.lo;
@@ -136,6 +142,12 @@ bool BoundedProblem::park_dependent(int k) noexcept {
     goes_up = speed > 0.0;
   }
   if (first < 0) return false;
+  if (is_one_sided(first)) {
+    if (entry(first).kind == RowKind::upper ? !goes_up : goes_up) return false;
+    release(first);
+    pushing_.erase(std::find(pushing_.begin(), pushing_.end(), first));
+    return true;
+  }
   const auto place = std::find(motions_.begin(), motions_.end(), first) - motions_.begin();
   parked_[static_cast<std::size_t>(place)] = goes_up ? 1 : -1;
   return true;
@@ -165,8 +177,8 @@ BoundedProblem::Change BoundedProblem::drive_plainly() noexcept {
   double* const nu = free_nu_.data();
   for (int k = 0; k < n; ++k) {
     const int i = free_rows_[static_cast<std::size_t>(k)];
-    if (!factorise_plainly(k)) return park_dependent(k) ? Change::some : Change::unclear;
     nu[k] = (d_(i) - along(i, work_)) * entry(i).inverse_reach;
+    if (!factorise_plainly(k)) return park_dependent(k) ? Change::some : Change::unclear;
   }
   substitute(free_factor_, free_inverse_D_, n, nu);
   for (int k = 0; k < n; ++k) {
@@ -226,11 +238,11 @@ BoundedProblem::Change BoundedProblem::change_limits(int level) noexcept {
       pushing_[kept++] = i;
       continue;
     }
-    Room& room = room_[axis_of(i)];
-    (is_upper ? room.upper : room.lower).pushes = false;
+    release(i);
     change = Change::some;
   }
   pushing_.resize(kept);
+  if (change == Change::some) return change;  // a limit just left alone stands at its bound: no room yet
   End* farthest = nullptr;
   double most = -1.0;
   for (const int axis : limited_axes_) {
@@ -246,6 +258,13 @@ BoundedProblem::Change BoundedProblem::change_limits(int level) noexcept {
   }
   if (farthest == nullptr) return change;
   return let_push(*farthest, level) ? Change::some : Change::unclear;
+}
+
+/// The limit pushes no more.
+void BoundedProblem::release(int limit) noexcept {
+  Room& room = room_[axis_of(limit)];
+  (entry(limit).kind == RowKind::upper ? room.upper : room.lower).pushes = false;
+  entry(limit).plain_nu = 0.0;
 }
 
 bool BoundedProblem::let_push(End& end, int level) noexcept {

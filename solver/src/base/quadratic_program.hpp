@@ -46,6 +46,11 @@ class QuadraticProgram {
   double z(int variable) const noexcept { return z_(variable); }
   /// At a solution: the rate at which the objective changes with a parked variable; 0 for the others.
   double reduced_gradient(int variable) const noexcept { return reduced_(variable); }
+  /// Of an equation, y:  reduced gradient = gradient - E'y.
+  double multiplier(int equation) const noexcept {
+    const auto place = std::find(rows_.begin(), rows_.end(), equation);
+    return place == rows_.end() ? 0.0 : multipliers_(place - rows_.begin());
+  }
   bool is_free(int variable) const noexcept { return place_[index(variable)] != Place::parked; }
   double gradient_tolerance() const noexcept { return tolerance_; }
 

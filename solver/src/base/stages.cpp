@@ -45,7 +45,7 @@ bool BoundedProblem::brake(int forces, int level, int max_iterations) noexcept {
   std::rotate(begin, begin + forces, posed_.end());
   take_out_limits(work_);
   const int limits = static_cast<int>(posed_.size()) - forces;
-  pose_motion(limits, level, false);
+  pose_motion(limits, level, Posed::rows);
   const bool exact = program_.solve(max_iterations, iterations_);
   take_p(limits);
   std::rotate(begin, begin + limits, posed_.end());
@@ -67,7 +67,8 @@ bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noe
     const int i = posed_[static_cast<std::size_t>(k)];
     push(i, -entry(i).nu, fixed_);
   }
-  resize_program(n, level, 0, true);
+  list_sums(level);
+  resize_program(n, level, 0, Posed::motors);
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
@@ -82,7 +83,8 @@ bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noe
       pose_multiplier(k, level);
     }
   }
-  pose_motors(n, level);
+  pose_motors(n);
+  pose_kept(n, level, n + motors_, dimension_);
   const bool exact = program_.solve(max_iterations, iterations_);
   take_p(n);
   take_motors(n);
@@ -97,22 +99,21 @@ bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noe
   return exact;
 }
 
-/// Variables: `n` of rows, then the motors, the room that each limit above keeps, and the sums.
-void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept {
+/// Variables: `n` of rows, then the motors, the room that each limit above keeps, and the listed sums.
+void BoundedProblem::resize_program(int n, int level, int curvature_rows, Posed posed) noexcept {
   units_.clear();
-  if (!with_motors) {
+  if (posed == Posed::rows) {
     program_.resize(n, curvature_rows, 0);
     return;
   }
-  int bounded = 0;  // limits above and sums: a variable and an equation each
+  int kept = static_cast<int>(posed_sums_.size());  // a variable and an equation each
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    if (is_one_sided(i) && entry(i).level < level) ++bounded;
+    if (is_one_sided(i) && entry(i).level < level) ++kept;
   }
-  for (const int i : sums_) {
-    if (sum_counts(i, level)) ++bounded;
-  }
-  program_.resize(n + motors_ + bounded, curvature_rows, dimension_ + bounded);
+  const bool with_motors = posed == Posed::motors;
+  program_.resize(n + (with_motors ? motors_ : 0) + kept, curvature_rows,
+                  (with_motors ? dimension_ : 0) + kept);
 }
 
 /// The variable nu |V_i| of a motion row: its bounds, and where it stands.
@@ -127,9 +128,8 @@ inline void BoundedProblem::pose_multiplier(int k, int level) noexcept {
   program_.z(k) = e.is_limit ? e.nu * e.reach : 0.0;
 }
 
-/// The equations of the `n` row variables: torques make the motion, and the limits above stay kept,
-/// B_i.p + room = b. Without them a level whose torque runs out would trade a limit above for itself.
-void BoundedProblem::pose_motors(int n, int level) noexcept {
+/// The equations of the `n` row variables: torques make the motion.
+void BoundedProblem::pose_motors(int n) noexcept {
   for (int k = 0; k < n; ++k) {
     add_multiple(dimension_, -units_[static_cast<std::size_t>(k)], V(posed_[static_cast<std::size_t>(k)]),
                  program_.E(k));
@@ -141,24 +141,26 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
     program_.hi(n + j) = tau_hi_(j) * length;
     program_.z(n + j) = tau_(j) * length;
   }
-  int limit = 0;
+}
+
+/// The limits above stay kept, B_i.p + room = b, and so do the listed sums. Without them a level whose torque
+/// runs out would trade a limit above for itself.
+void BoundedProblem::pose_kept(int n, int level, int variable, int equation) noexcept {
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
     if (!is_one_sided(i) || entry(i).level >= level) continue;
     const double sign = entry(i).kind == RowKind::upper ? 1.0 : -1.0;
     const double length = entry(i).reach;
-    const int equation = dimension_ + limit;
     for (int other = 0; other < n; ++other) {
       const double share = dot(dimension_, V(i), V(posed_[static_cast<std::size_t>(other)]));
       program_.E(other)[equation] = sign * share * units_[static_cast<std::size_t>(other)] / length;
     }
-    const int room = n + motors_ + limit++;
-    program_.E(room)[equation] = 1.0;
-    program_.lo(room) = 0.0;
-    program_.hi(room) = infinity;
-    program_.z(room) = std::max(0.0, room_of(i, p_) / length);
+    program_.E(variable)[equation++] = 1.0;
+    program_.lo(variable) = 0.0;
+    program_.hi(variable) = infinity;
+    program_.z(variable++) = std::max(0.0, room_of(i, p_) / length);
   }
-  pose_sums(n, level, n + motors_ + limit, dimension_ + limit);
+  pose_sums(n, variable, equation);
 }
 
 void BoundedProblem::take_motors(int first) noexcept {
@@ -181,7 +183,7 @@ bool BoundedProblem::find_motion(int level, int max_iterations) noexcept {
   for (const int i : folded_) {
     if (!is_one_sided(i)) push(i, entry(i).nu, fixed_);
   }
-  pose_motion(n, level, false);
+  pose_motion(n, level, Posed::rows);
   const bool exact = program_.solve(max_iterations, iterations_);
   take_p(n);
   return exact;
@@ -212,17 +214,10 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   }
   if (possible) {
     tau_.head(motors_) = candidate_.head(motors_);
+    torques_are_least_ = true;
   } else {
-    wake_idle_limits(level);
-    pose_rows();
-    take_out_limits(p_);
-    const int n = static_cast<int>(posed_.size());
-    pose_motion(n, level, true);
-    exact = program_.solve(max_iterations, iterations_);
-    take_p(n);
-    take_motors(n);
+    exact = move_within_sums(level, max_iterations);
   }
-  torques_are_least_ = possible;
   take_multipliers(level);
   copy(work_, p_);
   if (!possible) note_limits(level);
@@ -232,8 +227,41 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   return exact;
 }
 
-void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
-  resize_program(n, level, dimension_, with_motors);
+/// The motion in work_ where a sum or a motor stands in the way. Mostly it is a sum or two, and no motor.
+/// Sums and limits join that the motion would break, and the motors only if they do not make it.
+bool BoundedProblem::move_within_sums(int level, int max_iterations) noexcept {
+  wake_idle_limits(level);
+  pose_rows();
+  let_limits_wait();
+  take_out_limits(p_);
+  posed_sums_.clear();
+  copy(work_, felt_);
+  bool exact = motors_reach_all_;
+  while (exact && pose_broken(level)) {
+    const int n = static_cast<int>(posed_.size());
+    pose_motion(n, level, Posed::sums);
+    exact = program_.solve(max_iterations, iterations_);
+    take_p(n);
+    take_felt(n, level);
+  }
+  torques_are_least_ = exact && !posed_sums_.empty() && torques_for(work_);
+  if (torques_are_least_) {
+    folded_.swap(waiting_);
+    tau_.head(motors_) = candidate_.head(motors_);
+    return true;
+  }
+  pose_rows();
+  list_sums(level);
+  const int n = static_cast<int>(posed_.size());
+  pose_motion(n, level, Posed::motors);
+  exact = program_.solve(max_iterations, iterations_);
+  take_p(n);
+  take_motors(n);
+  return exact;
+}
+
+void BoundedProblem::pose_motion(int n, int level, Posed posed) noexcept {
+  resize_program(n, level, dimension_, posed);
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
@@ -243,7 +271,10 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
     program_.R(k) = softness_at(i, level) * unit * unit;
     pose_multiplier(k, level);
   }
-  if (with_motors) pose_motors(n, level);
+  if (posed == Posed::rows) return;
+  const bool with_motors = posed == Posed::motors;
+  if (with_motors) pose_motors(n);
+  pose_kept(n, level, n + (with_motors ? motors_ : 0), with_motors ? dimension_ : 0);
 }
 
 /// p of the stage's solution, in work_.
@@ -305,8 +336,7 @@ bool BoundedProblem::least_torques(int max_iterations) noexcept {
     return true;
   }
   program_.resize(motors_, 0, dimension_);
-  posed_.clear();
-  pose_motors(0, -1);
+  pose_motors(0);
   for (int j = 0; j < motors_; ++j) {
     const double length = nonzero(motor_length(j));
     program_.R(j) = 1.0 / (length * length);

@@ -32,21 +32,86 @@ double BoundedProblem::sum_of(int i, const Vector& p) noexcept {
   return along(i, p) / (e.length * e.length) - e.above;
 }
 
+bool BoundedProblem::sum_holds(int i, const Vector& p) noexcept {
+  const Entry& e = entry(i);
+  const double sum = sum_of(i, p);
+  return sum >= e.lo - sum_rounding * std::abs(e.lo) && sum <= e.hi + sum_rounding * std::abs(e.hi);
+}
+
 bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
+  return std::all_of(sums_.begin(), sums_.end(),
+                     [&](int i) { return !sum_counts(i, level) || sum_holds(i, p); });
+}
+
+void BoundedProblem::list_sums(int level) noexcept {
+  posed_sums_.clear();
   for (const int i : sums_) {
-    if (!sum_counts(i, level)) continue;
-    const Entry& e = entry(i);
-    const double sum = sum_of(i, p);
-    if (sum < e.lo - sum_rounding * std::abs(e.lo) || sum > e.hi + sum_rounding * std::abs(e.hi))
-      return false;
+    if (sum_counts(i, level)) posed_sums_.push_back(i);
   }
-  return true;
+}
+
+/// Takes out of posed_ the limits that push nothing.
+void BoundedProblem::let_limits_wait() noexcept {
+  waiting_.clear();
+  std::size_t kept = 0;
+  for (const int i : posed_) {
+    if (is_one_sided(i) && entry(i).nu == 0.0) {
+      waiting_.push_back(i);
+    } else {
+      posed_[kept++] = i;
+    }
+  }
+  posed_.resize(kept);
+}
+
+/// Adds the sum that the motion in work_ breaks most, and the waiting limits without room: a limit joins,
+/// too, if it has none at felt_, for then it wants to push. False where nothing joins.
+bool BoundedProblem::pose_broken(int level) noexcept {
+  int worst = -1;
+  double most = 0.0;
+  for (const int i : sums_) {
+    if (!sum_counts(i, level) || sum_holds(i, work_)) continue;
+    const double sum = sum_of(i, work_);
+    const double beyond = std::max(sum - entry(i).hi, entry(i).lo - sum) * entry(i).length;
+    if (beyond <= most || std::find(posed_sums_.begin(), posed_sums_.end(), i) != posed_sums_.end()) continue;
+    most = beyond;
+    worst = i;
+  }
+  if (worst >= 0) posed_sums_.push_back(worst);
+  const std::size_t waiting = waiting_.size();
+  std::size_t kept = 0;
+  for (const int i : waiting_) {
+    const double least = tie * std::abs(target_of(i));
+    if (room_of(i, work_) > least && room_of(i, felt_) > least) {
+      waiting_[kept++] = i;
+    } else {
+      posed_.push_back(i);
+    }
+  }
+  waiting_.resize(kept);
+  return worst >= 0 || kept < waiting;
+}
+
+/// The motion that the rows feel: where a sum or a limit above stands in the way, a row gets what it wants of
+/// p - sum y E, with y the multipliers of the equations and E their directions.
+void BoundedProblem::take_felt(int n, int level) noexcept {
+  copy(work_, felt_);
+  int equation = 0;
+  for (int k = 0; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    if (!is_one_sided(i) || entry(i).level >= level) continue;
+    const double sign = entry(i).kind == RowKind::upper ? 1.0 : -1.0;
+    push(i, -sign * program_.multiplier(equation++) * entry(i).inverse_reach, felt_);
+  }
+  for (const int i : posed_sums_) {
+    project_row(i, level);
+    push(i, -program_.multiplier(equation++) * entry(i).inverse_length, felt_);
+  }
 }
 
 /// The variable sigma = |B_S| (the sum): B_S.p / |B_S| = sigma + what the levels above made of it.
-void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noexcept {
-  for (const int i : sums_) {
-    if (!sum_counts(i, level)) continue;
+void BoundedProblem::pose_sums(int n, int variable, int equation) noexcept {
+  for (const int i : posed_sums_) {
     const double length = entry(i).length;
     for (int k = 0; k < n; ++k) {
       const double share = dot(dimension_, B(i), V(posed_[static_cast<std::size_t>(k)])) / length;
