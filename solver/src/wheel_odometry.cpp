@@ -22,14 +22,26 @@ WheelOdometry::WheelOdometry(const Model& model) : model_(model) {
                      direction.sideways});
     is_rigid_ = is_rigid_ && body.parent == 0;
   });
+  lines_.resize(held_.size());
   if (!is_rigid_) return;
-  rigid_normal_ = normal(State(model));
-  for (const Held& held : held_) rigid_lines_.push_back(line(held, State(model)));
+  find_lines(State(model));
+  rigid_normal_ = normal();
 }
 
-WheelOdometry::Line WheelOdometry::line(const Held& held, const State& state) const noexcept {
+/// Directions of one wheel, and of the wheels of one caster, follow one another: they share a carrier.
+void WheelOdometry::find_lines(const State& state) noexcept {
   FrameMotion carrier;  // against the base
-  if (held.carrier != 0) carrier = motion_of_body(held.carrier, model_, state, FrameMotion{});
+  int body = 0;
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (held_[i].carrier != body) {
+      body = held_[i].carrier;
+      carrier = body == 0 ? FrameMotion{} : motion_of_body(body, model_, state, FrameMotion{});
+    }
+    lines_[i] = line(held_[i], carrier);
+  }
+}
+
+WheelOdometry::Line WheelOdometry::line(const Held& held, const FrameMotion& carrier) noexcept {
   const Vector3 axis = carrier.pose.rotation * held.axis;
   const Vector3 u = HeldDirection{held.rolling, held.sideways}.along(axis);
   const Vector3 centre = carrier.pose.rotation * held.centre;
@@ -40,12 +52,11 @@ WheelOdometry::Line WheelOdometry::line(const Held& held, const State& state) co
       {u.x(), u.y(), P.x() * u.y() - P.y() * u.x()}, u, carried, axis.cross(down), P.head<2>().squaredNorm()};
 }
 
-WheelOdometry::Normal WheelOdometry::normal(const State& state) const noexcept {
+WheelOdometry::Normal WheelOdometry::normal() const noexcept {
   Normal result;
   Matrix3 JtJ = Matrix3::Zero();
   double square_distance = 0.0;
-  for (const Held& held : held_) {
-    const Line l = line(held, state);
+  for (const Line& l : lines_) {
     JtJ += l.direction * l.direction.transpose();
     square_distance += l.square_distance;
   }
@@ -62,27 +73,24 @@ WheelOdometry::Normal WheelOdometry::normal(const State& state) const noexcept {
   return result;
 }
 
-WheelTwist WheelOdometry::twist(const State& state) const noexcept {
+WheelTwist WheelOdometry::twist(const State& state) noexcept {
   WheelTwist result;
   if (held_.empty()) return result;
-  const Normal now = is_rigid_ ? rigid_normal_ : normal(state);
+  if (!is_rigid_) find_lines(state);
+  const Normal now = is_rigid_ ? rigid_normal_ : normal();
   const Vector3 scale(1.0, 1.0, 1.0 / now.length);
-  const auto for_each_line = [&](auto&& visit) {
-    for (std::size_t i = 0; i < held_.size(); ++i) {
-      const double rate = state.qd(held_[i].joint);
-      if (is_rigid_) visit(rigid_lines_[i], rate);
-      if (!is_rigid_) visit(line(held_[i], state), rate);
-    }
-  };
   Vector3 Jtr = Vector3::Zero();
-  for_each_line(
-      [&](const Line& l, double rate) { Jtr -= l.direction.cwiseProduct(scale) * l.slip_of_joints(rate); });
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const Line& l = lines_[i];
+    Jtr -= l.direction.cwiseProduct(scale) * l.slip_of_joints(state.qd(held_[i].joint));
+  }
   const Vector3 V = (now.pseudo_inverse * Jtr).cwiseProduct(scale);  // (vx, vy, w)
   double square_slip = 0.0;
-  for_each_line([&](const Line& l, double rate) {
-    const double slip = l.direction.dot(V) + l.slip_of_joints(rate);
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const Line& l = lines_[i];
+    const double slip = l.direction.dot(V) + l.slip_of_joints(state.qd(held_[i].joint));
     square_slip += slip * slip;
-  });
+  }
   result.rank = now.rank;
   result.slip = std::sqrt(square_slip / static_cast<double>(held_.size()));
   result.twist.linear = {V.x(), V.y(), 0.0};

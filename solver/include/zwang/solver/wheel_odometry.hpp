@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zwang/export.hpp"
+#include "zwang/solver/frame.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 
@@ -28,7 +29,7 @@ class ZWANG_EXPORT WheelOdometry {
   explicit WheelOdometry(const Model& model);
 
   /// Reads q and qd of the state only, which is sized for the model. Does not allocate, lock, throw or print.
-  WheelTwist twist(const State& state) const noexcept;
+  WheelTwist twist(const State& state) noexcept;
 
  private:
   /// A held direction of a wheel, at rest in the body that the wheel turns on.
@@ -54,14 +55,15 @@ class ZWANG_EXPORT WheelOdometry {
     int rank = 0;
     double length = 1.0;  ///< l [m]
   };
-  Line line(const Held& held, const State& state) const noexcept;
-  Normal normal(const State& state) const noexcept;
+  void find_lines(const State& state) noexcept;
+  static Line line(const Held& held, const FrameMotion& carrier) noexcept;
+  Normal normal() const noexcept;
 
   Model model_;
   std::vector<Held> held_;
   bool is_rigid_ = true;  ///< all wheels turn on the base itself: J never changes
   Normal rigid_normal_;
-  std::vector<Line> rigid_lines_;
+  std::vector<Line> lines_;  ///< of the held directions, at the last state if they move
 };
 
 }  // namespace zwang::solver
