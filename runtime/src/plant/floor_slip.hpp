@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "zwang/solver/frame.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 
@@ -26,6 +27,7 @@ class FloorSlip {
  private:
   double part_;                ///< of a step that the low-pass takes over
   std::vector<double> slips_;  ///< [m/s] by wheel
+  solver::BodyMotions motions_;
   double speed_ = 0.0;
 };
 

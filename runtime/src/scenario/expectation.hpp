@@ -34,6 +34,7 @@ class ExpectationWatch {
  public:
   explicit ExpectationWatch(const lang::Expectation& expectation);
 
+  const lang::Condition& condition() const noexcept { return expectation_.that; }
   /// `in_task`: a task is active, not the brake behind it.
   void look(const TrueFacts& facts, double time, bool in_task) noexcept;
   /// `of_partners`: their outcomes, in the scene's order.

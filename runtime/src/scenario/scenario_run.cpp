@@ -124,7 +124,9 @@ class CellWatch final : public SimulatedRunHost {
         interrupted_(interrupted),
         result_(result),
         facts_(program),
-        had_stopped_(plant.partners().size(), false) {}
+        had_stopped_(plant.partners().size(), false) {
+    for (const ExpectationWatch& watch : watches) facts_.follow(watch.condition());
+  }
 
   bool is_interrupted() const noexcept { return interrupted_ != nullptr && interrupted_->load(); }
   const PathWatch& path() const noexcept { return path_; }

@@ -22,12 +22,13 @@ TrueFacts::TrueFacts(const lang::Program& program)
   values_[lang::truth_switch] = 0.0;
   if (program.scene) steady_.resize(program.scene->objects.size() + program.scene->robots.size());
   for (const lang::Region& region : program.regions) regions_.emplace_back(region, program.robot.footprint);
-  for (const lang::ConditionFunction& function : lang::condition_functions()) {
-    if (function.argument != lang::FunctionArgument::frame) continue;
-    for (std::size_t i = 0; i < program.frames.size(); ++i)
-      frames_.follow(lang::call_of(function.name, static_cast<int>(i)));
-  }
   entries_.resize(program.tasks.size());
+}
+
+void TrueFacts::follow(const lang::Condition& condition) {
+  for (const lang::ExpressionNode& node : condition.nodes) {
+    if (node.op == lang::Op::of_frame) frames_.follow(node);
+  }
 }
 
 void TrueFacts::update(const Truth& truth, const solver::State& state, double torque_share) noexcept {

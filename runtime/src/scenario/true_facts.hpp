@@ -17,6 +17,8 @@ class TrueFacts {
  public:
   explicit TrueFacts(const lang::Program& program);
 
+  /// Before the run: frames are followed that a condition asks of, as there are many.
+  void follow(const lang::Condition& condition);
   /// `torque_share`: of its limit, of the motor that is nearest to it.
   void update(const Truth& truth, const solver::State& state, double torque_share) noexcept;
   /// Of another robot of the scene.
