@@ -49,7 +49,8 @@ void BoundedProblem::note_limit(int i) noexcept {
   join(is_upper ? room.upper : room.lower, {d_(i) - side * tie * std::abs(d_(i)), i}, side);
 }
 
-/// The limits of one more level. False where one comes to a limit that pushes.
+/// The limits of one more level. False where one comes to a limit that pushes, or contradicts another one:
+/// the two ends of an axis leave no interval then.
 bool BoundedProblem::allow(int level) noexcept {
   for (int k = 0; k < room_count_; ++k) {
     const Room& own = rooms_[static_cast<std::size_t>(k)];
@@ -58,6 +59,7 @@ bool BoundedProblem::allow(int level) noexcept {
     if (room.axis < 0) limited_axes_.push_back(own.axis);
     room.axis = own.axis;
     if (!join(room.upper, own.upper, 1.0) || !join(room.lower, own.lower, -1.0)) return false;
+    if (room.lower.least > room.upper.least) return false;
   }
   return true;
 }
