@@ -87,12 +87,40 @@ lang::Program star(int count) {
   return load_text(text.str());
 }
 
+lang::Program tasks(int count) {
+  std::ostringstream text;
+  text << head << task_head;
+  for (int i = 1; i < count; ++i) {
+    text << "    exits: [{when: elapsed > 1000 s, goto: t" << i << "}]\n  t" << i
+         << ":\n    timeout: {after: 4 s, goto: done}\n    constraints:\n"
+            "      drive: {move: base, in: world, x: {velocity: 0.3 m/s}, y: {velocity: 0.05 m/s}, rz: "
+            "{velocity: 0.1 rad/s}}\n";
+  }
+  return load_text(text.str());
+}
+
+lang::Program wheels(int count) {
+  const char* const robot = count == 2   ? "diff_base"
+                            : count == 3 ? "omni_base"
+                            : count == 4 ? "mecanum_base"
+                                         : "kelo_base";
+  return load_text(std::string("zwang: 2\nrobot: robots/") + robot +
+                   ".yaml\nscene: scenes/open.yaml\nstart: go\ntasks:\n  go:\n"
+                   "    timeout: {after: 4 s, goto: done}\n    constraints:\n"
+                   "      drive: {move: base, in: base, x: {velocity: 0.3 m/s, force: +-60 N}, "
+                   "rz: {velocity: 0.1 rad/s, force: +-20 N m}}\n");
+}
+
 lang::Program program_of(const std::string& name) {
   std::istringstream words(name);
   int count = 0;
   std::string of;
-  if (words >> count >> of)
-    return of == "groups" ? groups(count) : of == "exits" ? exits(count) : star(count);
+  if (words >> count >> of) {
+    if (of == "groups") return groups(count);
+    if (of == "exits") return exits(count);
+    if (of == "tasks") return tasks(count);
+    return of == "wheels" ? wheels(count) : star(count);
+  }
   if (name == "hospital") return shipped("hospital.yaml", "mecanum_base");
   if (name == "crowded") return shipped("laws/crowded.yaml", "mecanum_base");
   if (name == "wall_align") return shipped("wall_align.yaml", "mecanum_base");

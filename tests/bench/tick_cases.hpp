@@ -17,7 +17,13 @@ lang::Program exits(int count);
 /// The same inside a star of `count` vertices.
 lang::Program star(int count);
 
-/// Of a name as the table has it: "hospital", "16 groups", "256 exits", "1000 vertices".
+/// A file of `count` tasks, each with the groups of one; the first one is active.
+lang::Program tasks(int count);
+/// A base that drives ahead and turns on `count` wheels: 2 of a differential base, 3 omni wheels, 4 mecanum
+/// wheels, or 8 on four casters.
+lang::Program wheels(int count);
+
+/// Of a name as the table has it: "hospital", "16 groups", "256 exits", "1000 vertices", "8 wheels".
 lang::Program program_of(const std::string& name);
 
 }  // namespace zwang::bench

@@ -208,6 +208,8 @@ void print_all_counts(const std::string& program_file) {
   print_growth(program_file, "groups", {1, 2, 4, 8, 16, 32});
   print_growth(program_file, "exits", {1, 16, 64, 256});
   print_growth(program_file, "vertices", {4, 16, 64, 250, 1000});
+  print_growth(program_file, "tasks", {1, 10, 100, 250});
+  print_growth(program_file, "wheels", {2, 3, 4, 8});
 }
 
 }  // namespace
