@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "constants.hpp"
 #include "guard/contact_depth.hpp"
@@ -36,11 +34,6 @@ class OneMass {
     driven.driver = driver;
     set_.add(driven);
   }
-  /// From a time on [s], as where its task ends.
-  void drive_from(double at, const solver::Driver& driver) {
-    drives_from_ = at;
-    drives_then_ = driver;
-  }
   /// [s] of the event; -1: none.
   template <typename Speed, typename Force>
   double found(double until, const Speed& speed, const Force& force) {
@@ -51,10 +44,6 @@ class OneMass {
     Eigen::VectorXd outside(1);
     for (int i = 0; i * period < until; ++i) {
       const double t = i * period;
-      if (drives_then_ && t >= drives_from_) {
-        drive(*drives_then_);
-        drives_then_.reset();
-      }
       told(0) = force(t);
       rate(0) = speed(t);
       const bool is_due = watch.follow(told, rate);
@@ -72,8 +61,6 @@ class OneMass {
   static constexpr double mass = 50.0;  // [kg]
 
  private:
-  double drives_from_ = 0.0;
-  std::optional<solver::Driver> drives_then_;
   const lang::Robot robot_;
   const solver::Model model_;
   solver::State state_;
@@ -140,27 +127,6 @@ TEST(Runaway, IsNoneWhereSomebodyPushesWithLessThanADriversForce) {
   // It ends at 0.2 m/s + 35 N 0.5 s/m = 0.55 m/s, where 0.6 m/s take all of the driver's force.
   EXPECT_EQ(found_beside_a_driver(35.0), -1.0);
   EXPECT_GT(found_beside_a_driver(60.0), 0.0);
-}
-
-/// A base at 0.1 m/s is told to stand from 0.5 s on: v is driven to 0 with T = 50 ms. A partner pushes on,
-/// with 10 N e^(0.7 t/s). So v falls to p T/m = 1 cm/s, and grows as p. T grows by m v v' = 0.7 1/s T = 3.5 %
-/// of what the motors take, m v^2/T. A motor that gives the opposite would leave all of that.
-TEST(Runaway, IsNoneWhereAPartnerPushesOnAfterTheTask) {
-  constexpr double begin = 0.5, time_constant = 0.05;
-  OneMass mass(-10.0, 10.0);
-  mass.drive_from(begin, {.target = 0.0, .time_constant = time_constant, .force = {-80.0, 80.0}});
-  std::vector<double> v, told;
-  for (int i = 0; i < 2000; ++i) {
-    const double t = i * period - begin, p = t < 0.0 ? 0.0 : 10.0 * std::exp(0.7 * t);
-    const double before = v.empty() ? 0.1 : v.back();
-    told.push_back(t < 0.0 ? 0.0 : -OneMass::mass * before / time_constant);
-    v.push_back(before + period * (told.back() + p) / OneMass::mass);
-  }
-  const auto at = [](const std::vector<double>& of) {
-    return [&of](double t) { return of[static_cast<std::size_t>(std::max(0.0, t) / period + 0.5)]; };
-  };
-  EXPECT_EQ(mass.found(1.9, at(v), at(told)), -1.0);
-  EXPECT_GT(v.back(), 0.02) << "faster than half of 1 cm/s, and getting faster";
 }
 
 TEST(Runaway, IsNoneAsLongAsTheMotorsDoTheWork) {

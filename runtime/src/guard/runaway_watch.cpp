@@ -156,8 +156,7 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
     return !is_led && driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy) &&
            contact.is_no_spring(driver.contact);
   };
-  const bool is_driven =
-      margins > driven && is_at_work(steady_) && steady_.is_as_fast_as_a_motor(kinetic_energy);
+  const bool is_driven = margins > driven && is_at_work(steady_);
   const bool is_beyond = is_at_work(beyond_) && rise_.may_be_a_motor(kinetic_energy);
   if (!is_driven && !is_beyond && far_.rising < dwell) return std::nullopt;
   Eigen::Index hardest = 0;

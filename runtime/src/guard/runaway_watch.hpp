@@ -27,19 +27,16 @@ namespace zwang::runtime {
 /// A motor that does the opposite of its command gives twice the work that it is told to take, and no contact
 /// adds to it. If no motor's share comes near the work done, T(t) - T(t0) - W, the robot gives way to a push
 /// from outside. A force range asks for that, so it is not a fault. (Of two motors each may do all of the
-/// work.) What that motor gives beyond the brakes has to speed the robot up. A steady push of somebody else
-/// also brings a base that is told to stand to F T/m. There it gets faster only as the push grows. So a
-/// steady force has to leave the robot `left_over` of that motor's surplus. Friction c takes c v, and the
-/// surplus grows as v^2: T grows from v0 on, and this asks for v0 / (1 - `left_over`). The shares are taken
-/// over all the time since a speed was exceeded, and over the time in which T grows alone. No motor gives the
-/// work that motors took between two pushes. A base far beyond its allowed speed that still gets faster is a
-/// fault in any case. The source may be several motors with the wrong wiring or a strong person: the base
-/// must not be moved so. A driver with a force range F and the time constant T gives way by F T/m to a push
-/// of F. While a person pushes, that is not a runaway. Only constraints between base and world count. A
-/// person who leads an arm by hand does work on the robot, and the arm's joints have limits of their own.
-/// Three other causes are excluded, as T falls or W > 0 in each. They are a limit that is tightened during
-/// the motion, a contact that turns the base, and a motion that rows cause together. The hit of another robot
-/// is over before `dwell`. Does not allocate, lock, throw or print after construction.
+/// work.) The shares are taken over all the time since a speed was exceeded, and over the time in which T
+/// grows alone. No motor gives the work that motors took between two pushes. A base far beyond its allowed
+/// speed that still gets faster is a fault in any case. The source may be several motors with the wrong
+/// wiring or a strong person: the base must not be moved so. A driver with a force range F and the time
+/// constant T gives way by F T/m to a push of F. While a person pushes, that is not a runaway. Only
+/// constraints between base and world count. A person who leads an arm by hand does work on the robot, and
+/// the arm's joints have limits of their own. Three other causes are excluded, as T falls or W > 0 in each.
+/// They are a limit that is tightened during the motion, a contact that turns the base, and a motion that
+/// rows cause together. The hit of another robot is over before `dwell`. Does not allocate, lock, throw or
+/// print after construction.
 class RunawayWatch {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
@@ -70,7 +67,6 @@ class RunawayWatch {
   static constexpr double share_far = 1.0;      ///< of the bound, as `far` where that is more
   static constexpr double steadily = 0.15;      ///< of a force: the largest change of a steady one
   static constexpr double explained = 0.8;      ///< of the work done: the least that one motor has to give
-  static constexpr double left_over = 0.25;     ///< of a reversed motor's surplus: contacts take the rest
   static constexpr double look_every = 0.01;    ///< [s]
   static constexpr double memory = 1.0;         ///< [s] of the largest T: longer than contacts keep energy
   static constexpr double quick = 0.01;         ///< [s] of the rates' low pass
@@ -93,10 +89,6 @@ class RunawayWatch {
     }
     bool may_be_a_motor(double kinetic_energy) const noexcept {
       return -2.0 * work.minCoeff() > explained * (kinetic_energy - energy - work.sum());
-    }
-    /// A reversed motor j leaves the robot 2 |W_j| - |W|, less what contacts take.
-    bool is_as_fast_as_a_motor(double kinetic_energy) const noexcept {
-      return kinetic_energy - energy > left_over * (work.sum() - 2.0 * work.minCoeff());
     }
     void follow(bool drives) noexcept { rising = drives && work.sum() < 0.0 ? rising + 1 : 0; }
   };
