@@ -92,6 +92,24 @@ TEST(ContactRelease, AStopByAPersonLetsGoOfTheWall) {
   }
 }
 
+class ContactReleaseAfter : public testing::TestWithParam<EventCode> {};
+
+/// None of these reasons says that samples, wheels or motors are not what they seem.
+TEST_P(ContactReleaseAfter, AStopLetsGoOfTheWall) {
+  const lang::Program program = near_far_wall("mecanum_wrench_50_hz");
+  const Released released = stop_at(program, pressing, GetParam());
+  EXPECT_GT(released.pressed, 15.0);
+  EXPECT_LT(released.force, threshold(program));
+  EXPECT_LT(released.way, ContactRelease::farthest);
+  EXPECT_EQ(released.told, 0.0);
+  EXPECT_TRUE(released.is_finished);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stop, ContactReleaseAfter,
+                         testing::Values(EventCode::requested, EventCode::watchdog, EventCode::solver,
+                                         EventCode::bad_torque),
+                         [](const auto& tested) { return std::string(to_string(tested.param)); });
+
 /// c = V + T_c V' goes T_c V farther than V, and the ramp v^2/(2 a).
 TEST(ContactRelease, ASensorThatLiesMovesTheBaseByItsBoundOnly) {
   const lang::Program program = near_far_wall("mecanum_wrench_50_hz");

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "../is_long.hpp"
+#include "../temporary_folder.hpp"
 #include "constants.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
@@ -325,6 +327,52 @@ TEST(SoftWall, IsNoReversedMotorOfAMecanumBaseAsItGivesBack) {
     ASSERT_GT(out.touched, 0.0);
     EXPECT_LT(out.found, 0.0) << out.code << " at " << out.found << " s, " << wall.stiffness << " N/m";
   }
+}
+
+/// A differential base slides along a wall and turns, as a bounded moment holds its heading. Its corner comes
+/// off, and meets the wall again half a second later. The limit of its speed gives way to the wall as far out
+/// as one wheel. So that wheel's torque and the wall's keep an even sum, as those of a stuck motor do.
+TEST(MetAgain, AWallIsNoFaultOfTheWheelBesideIt) {
+  const zwang::test::TemporaryFolder folder;
+  const auto put = [&](const char* name, const std::string& text) {
+    std::ofstream(folder.path() / name) << text;
+  };
+  put("robot.yaml", "zwang_robot: 1\nbased_on: " + zwang::test::specs("robots/diff_base.yaml") + R"(
+footprint: {polygon: [[296 mm, 222 mm], [0 m, 296 mm], [-527 mm, 296 mm], [-527 mm, -296 mm], [0 m, -296 mm], [296 mm, -222 mm]]}
+)");
+  put("scene.yaml", R"(zwang_scene: 1
+start: {at: [0.8 m, 0.3677 m], yaw: 24.7 deg}
+floor: {friction: 0.9}
+objects:
+  wall: {wall: {length: 6 m}, at: [1.2 m, 0 m], fixed: true, friction: 0.2}
+)");
+  put("task.yaml", R"(zwang: 2
+robot: robot.yaml
+scene: scene.yaml
+start: press
+tasks:
+  press:
+    constraints:
+      contact: {move: base, in: base, x: {force: 40 N, velocity: [-0.05 m/s, 0.04 m/s]}, rz: {velocity: 0 rad/s, force: +-0.888 N m}}
+    timeout: {after: 5 s, goto: done}
+)");
+  lang::Diagnostics diagnostics;
+  const auto program = lang::load(folder.path() / "task.yaml", {.root = "/"}, diagnostics);
+  ASSERT_TRUE(program);
+  ScenePlant plant(*program);
+  Runner runner(*program, {.period = period});
+  Sensed sensed(program->robot.model, program->signals.size());
+  double off_since = -1.0, longest = 0.0;
+  while (!runner.finished() && plant.truth().time < 5.0) {
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    ASSERT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    ASSERT_FALSE(runner.guard().stopped()) << to_string(runner.guard().stop_event().code);
+    const auto& wall = plant.truth().objects[0];
+    if (wall.force > 0.0 && off_since > 0.0) longest = std::max(longest, plant.truth().time - off_since);
+    if (wall.force > 0.0) off_since = -1.0;
+    if (wall.touched && wall.force == 0.0 && off_since < 0.0) off_since = plant.truth().time;
+  }
+  EXPECT_GT(longest, 0.3) << "it did not come off";
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, MotorFaults,

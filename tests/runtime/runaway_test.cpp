@@ -240,6 +240,40 @@ TEST(ContactDepth, OfAHitThatIsAllDampingIsKeptUntilItsSpringIsQuiet) {
   EXPECT_EQ(contact.now().depth, 0.0);
 }
 
+/// A unit mass leans on a soft wall, 10 of 1000. Then it hits a hundred times stiffer one beside it with 200,
+/// and comes off it. The soft wall presses on: it is still F/k deep, and gives back F^2/2k. That is also what
+/// is known of a soft wall if the hit throws the mass off it by a tenth.
+TEST(ContactDepth, OfAWallThatPressesOnBesideAHitIsKept) {
+  constexpr double k = 1e3, stiff = 1e5, push = 10.0, hit = 200.0, dt = 1e-3;
+  const solver::FreeMotions motions(load("mecanum").robot.model);
+  for (const double thrown_off : {0.0, 0.1}) {
+    ContactDepth contact(load("mecanum").robot, dt);
+    Eigen::Vector2d s = Eigen::Vector2d::Zero();
+    const auto move_to = [&](double soft_depth, double stiff_depth) {
+      const Eigen::Vector2d to(soft_depth, stiff_depth), rate = (to - s) / dt;
+      const Eigen::Vector2d middle = 0.5 * (s + to), force(k * middle.x(), stiff * middle.y());
+      s = to;
+      contact.follow(motions, force, -force.dot(rate), 0.5 * rate.squaredNorm());
+    };
+    constexpr int steps = 100;
+    const double deep = push / k;
+    for (int i = 1; i <= steps; ++i) move_to(deep * i / steps, 0.0);
+    for (int i = 1; i <= steps; ++i)
+      move_to(deep * (1.0 - thrown_off * i / steps), hit / stiff * std::sin(M_PI * i / steps));
+    move_to(deep * (1.0 - thrown_off), 0.0);
+    const ContactDepth::Mark now = contact.now();
+    EXPECT_GT(now.depth, 0.95 * deep * (1.0 - thrown_off));
+    EXPECT_LT(now.depth, 1.05 * deep);
+    EXPECT_GT(now.work, 0.95 * 0.5 * push * push / k * (1.0 - thrown_off) * (1.0 - thrown_off));
+    EXPECT_LT(now.work, 1.05 * 0.5 * push * push / k);
+    // All the way back: that is a spring.
+    for (int i = 1; i <= steps / 2; ++i) {
+      move_to(deep * (1.0 - thrown_off) * (1.0 - 1.0 * i / steps), 0.0);
+      ASSERT_FALSE(contact.is_no_spring(now)) << i;
+    }
+  }
+}
+
 TEST(Runaway, IsNoHitOfSomebodyElse) {
   // Another robot hits one that stands: within 35 ms it has 0.2 m/s, and brakes from there.
   OneMass mass(-0.05, 0.05);

@@ -140,7 +140,7 @@ void ActuatorWatch::follow_onset(Motor& motor, const Fit& fit) const noexcept {
     motor.told = std::max(motor.told, told);
     motor.hardest = std::max(motor.hardest, force);
     const bool is_hit = force > most_told * motor.told + motor.threshold;
-    if (is_hit) motor.ticks_since_hit = 0;
+    if (is_hit || motor.is_met) motor.ticks_since_hit = 0;
     const bool begins = motor.is_armed && motor.loud_ticks <= entry_ticks_;
     if (begins && is_hit) {
       motor.is_met = true;

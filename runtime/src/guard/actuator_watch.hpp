@@ -21,11 +21,12 @@ namespace zwang::runtime {
 /// The fault shows from the instant at which f is not 0. Contact can have the same direction, too: the corner
 /// of a differential base, as far out as its wheel. Three criteria tell a fault from contact.
 ///  - Size. Contact grows from nothing through that size to another one. A motor's force has the size at
-///    `entry` after its onset out of quiet, and keeps it `closely` for `dwell`. Where a hit was less than
-///    `after_a_hit` before, the force also has to drive the robot by `least_way`. A base that turns about a
-///    corner at the wall leans on it evenly, with the command of the wheel beside it, and that force does no
-///    work. An error of the mass seems to do some, so `own_way` of the rim's way counts as well. The force of
-///    a padded wall takes work, first by its damper, then by its spring, and is even in between.
+///    `entry` after its onset out of quiet, and keeps it `closely` for `dwell`. If the robot touched
+///    something less than `after_a_hit` before, the force also has to drive it by `least_way`. A base that
+///    turns about a corner at the wall leans on it evenly, with the command of the wheel beside it, and that
+///    force does no work. An error of the mass seems to do some, so `own_way` of the rim's way counts as
+///    well. The force of a padded wall takes work, first by its damper, then by its spring, and is even in
+///    between.
 ///  - Place. Where the wheel rolls on by `travel`, a contact between the robot and a standing object gives
 ///    way or grows. A motor's force keeps its direction and size `closely` meanwhile, farther than a spring
 ///    of the same depth does (ContactDepth). The robot goes `along` it meanwhile. A base that turns about a
@@ -100,7 +101,7 @@ class ActuatorWatch {
     int quiet_ticks = 0;                   ///< without one
     double told = 0.0;                     ///< [N m] the largest command since before it began
     double hardest = 0.0;                  ///< [N m] the largest |p| / |T_j| since then
-    int ticks_since_hit = 0;               ///< p was more than any fault makes of the command
+    int ticks_since_hit = 0;               ///< p was more than any fault makes, or pressed on after that
     bool is_met = false;                   ///< what began is a contact
     bool is_armed = false;
     Obedience obedience;

@@ -12,16 +12,43 @@ ContactDepth::ContactDepth(const lang::Robot& robot, double period)
 
 void ContactDepth::reset() noexcept {
   now_ = {};
-  deepest_yet_ = force_when_deepest_ = 0.0;
+  forget();
+}
+
+/// The world has let go.
+void ContactDepth::forget() noexcept {
+  now_.depth = now_.work = deepest_yet_ = force_when_deepest_ = 0.0;
+  level_ = -1;
+}
+
+/// The depth and the work when the force was last this weak, before it grew: what presses on after a hit
+/// pressed before it. 0 if the force began with more.
+void ContactDepth::keep_what_pressed_before(int level) noexcept {
+  while (level >= 0 && (level > level_ || !held_[static_cast<std::size_t>(level)].is_known)) --level;
+  const Held held = level < 0 ? Held{} : held_[static_cast<std::size_t>(level)];
+  now_.depth = std::min(now_.depth, held.depth);
+  now_.work = std::min(now_.work, held.work);
+  deepest_yet_ = now_.depth;
+  force_when_deepest_ = now_.size;
+  level_ = level;
+}
+
+/// As the contact is pressed in. What is known of higher levels is over.
+void ContactDepth::remember(int level) noexcept {
+  for (int i = level_ + 1; i < level; ++i) held_[static_cast<std::size_t>(i)] = {};
+  held_[static_cast<std::size_t>(level)] = {now_.depth, now_.work, true};
+  level_ = level;
 }
 
 void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double power,
                           double kinetic_energy) noexcept {
   now_.size = p.norm();
-  if (!(now_.size > std::max(least_force(motors_, motions), quiet * force_when_deepest_))) {
-    now_.depth = now_.work = deepest_yet_ = force_when_deepest_ = 0.0;
+  if (!(now_.size > least_force(motors_, motions))) {
+    forget();
     return;
   }
+  const int level = std::clamp(std::ilogb(now_.size) - lowest_level, 0, levels - 1);
+  if (now_.size < quiet * force_when_deepest_) keep_what_pressed_before(level);
   const double given = power * period_;
   const double way = given / now_.size;
   now_.given += given;
@@ -29,9 +56,10 @@ void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double po
   now_.gone += std::sqrt(2.0 * std::max(0.0, kinetic_energy)) * period_;
   now_.work = std::max(0.0, now_.work - given);
   now_.depth = std::clamp(now_.depth - way, 0.0, deepest_);
-  if (now_.depth > deepest_yet_) {
+  if (now_.depth >= deepest_yet_) {
     deepest_yet_ = now_.depth;
     force_when_deepest_ = now_.size;
+    remember(level);
   }
 }
 

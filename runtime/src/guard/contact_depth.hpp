@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "guard/wheel_motors.hpp"
@@ -20,7 +21,9 @@ namespace zwang::runtime {
 /// Softness does not change this: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. A force
 /// that neither weakens on the way back nor grows on the way in, as a spring does, is not a contact force. At
 /// the deepest point the robot does not move. There |p| is the spring's force alone, while at the hit damping
-/// may be the larger part. Does not allocate, lock, throw or print after construction.
+/// may be the larger part. If |p| falls below `quiet` of that, the contact is over. Another one that pressed
+/// before it presses on: a wall beside one that is hit. So x and E are kept of each level of |p|, from 2^i to
+/// 2^(i+1), as it was pressed in. Does not allocate, lock, throw or print after construction.
 class ContactDepth {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
@@ -52,13 +55,26 @@ class ContactDepth {
   static constexpr double deepest = 0.1;       ///< [m] times the root of the robot's mass
   static constexpr double quiet = 0.1;         ///< of |p| at the deepest: a hundredth of what a spring stored
   static constexpr double smallest = 0.015;    ///< torque of a motor that counts as a force, of its limit
+  static constexpr int lowest_level = -10;     ///< of |p|, 2^-10 N/sqrt(kg): less than any motor's threshold
+  static constexpr int levels = 24;            ///< to 2^14 N/sqrt(kg), 100 kN on 40 kg
 
  private:
+  /// x and E at a level of |p|, when the contact was last pressed in there.
+  struct Held {
+    double depth = 0.0, work = 0.0;
+    bool is_known = false;
+  };
+  void forget() noexcept;
+  void keep_what_pressed_before(int level) noexcept;
+  void remember(int level) noexcept;
+
   std::vector<WheelMotor> motors_;
   double period_;
   double deepest_;  ///< [m sqrt(kg)]
   Mark now_;
   double deepest_yet_ = 0.0, force_when_deepest_ = 0.0;  ///< x and |p|, since it began
+  std::array<Held, levels> held_;
+  int level_ = -1;  ///< of |p| as it was last pressed in; -1: no contact
 };
 
 }  // namespace zwang::runtime
