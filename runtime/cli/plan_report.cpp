@@ -29,7 +29,7 @@ const char* word(solver::RowKind kind) {
 
 /// Rows that only carry or bound a force ask for no acceleration.
 bool asks_for_acceleration(solver::RowKind kind) {
-  return kind == solver::RowKind::driver || kind == solver::RowKind::upper || kind == solver::RowKind::lower;
+  return kind == solver::RowKind::driver || solver::is_limit(kind);
 }
 
 const char* word(solver::Quantity quantity) {

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -19,6 +20,7 @@
 #include "shipped.hpp"
 #include "study/ranks.hpp"
 #include "study/result_store.hpp"
+#include "study/sole_writer.hpp"
 #include "study/study_report.hpp"
 #include "study/workers.hpp"
 #include "sweep_page.hpp"
@@ -94,17 +96,19 @@ std::string duration_text(double seconds) {
   return whole < 6000 ? std::to_string(whole / 60) + " min" : std::to_string(whole / 3600) + " h";
 }
 
-/// One line that is written over itself: cells done, their rate, the time left, how many hold, and the
+/// One line, mostly written over itself: cells done, their rate, the time left, how many hold, and the
 /// expectation that most miss.
 class SweepProgress {
  public:
-  /// `before`: the cells that an earlier run has done.
+  /// `before`: the cells that an earlier run has done. In a job each line stays: mpirun gives rank 0 a
+  /// terminal of its own, wherever its own output goes.
   SweepProgress(const lang::Study& study, const std::vector<study::CellRecord>& before, std::size_t wanted,
-                bool shown)
+                bool shown, bool in_a_job)
       : study_(study),
         wanted_(wanted),
         misses_(study.claims.size(), 0),
-        shown_(shown && stdout_can_be_written_over()) {
+        shown_(shown && (in_a_job || stdout_can_be_written_over())),
+        is_written_over_(!in_a_job) {
     for (const study::CellRecord& record : before) count(record);
     before_ = done_;
   }
@@ -116,7 +120,7 @@ class SweepProgress {
   void show() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (!shown_ || seconds < next_) return;
-    next_ = seconds + 0.5;
+    next_ = seconds + (is_written_over_ ? 0.5 : 10.0);
     const double rate = static_cast<double>(done_ - before_) / seconds;
     std::ostringstream line;
     line.precision(3);
@@ -128,17 +132,21 @@ class SweepProgress {
     if (missed_ > 0 && worst != misses_.end())
       line << "; " << *worst << " miss "
            << study_.claims[static_cast<std::size_t>(worst - misses_.begin())].text;
-    print_over(line.str());
+    if (is_written_over_) {
+      print_over(line.str());
+    } else {
+      print(line.str() + "\n");
+    }
   }
   void end() const {
-    if (shown_) print_over("");
+    if (shown_ && is_written_over_) print_over("");
   }
 
  private:
   const lang::Study& study_;
   std::size_t before_ = 0, wanted_, done_ = 0, missed_ = 0;
   std::vector<std::size_t> misses_;  ///< by expectation
-  bool shown_;
+  bool shown_, is_written_over_;
   Clock::time_point begin_ = Clock::now();
   double next_ = 0.5;
 };
@@ -167,8 +175,27 @@ std::string results_path(const SweepArguments& arguments, const Shard& shard) {
   return stem + part + ".db";
 }
 
-void remove_results(const std::string& path) {
-  for (const char* end : {"", "-wal", "-shm"}) fs::remove(path + end);
+/// Files that are written when all cells have run: a folder that is missing is told before.
+void require_places(const SweepArguments& arguments) {
+  if (!arguments.junit) return;
+  const fs::path folder = fs::path(*arguments.junit).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw Impossible(*arguments.junit + ": there is no folder " + folder.string());
+}
+
+/// What `--merge` reads is not deleted by `--fresh`.
+void require_others(const SweepArguments& arguments, const std::string& path) {
+  for (const std::string& merged : arguments.merged) {
+    std::error_code absent;
+    if (arguments.fresh && fs::equivalent(merged, path, absent))
+      throw Impossible(merged + ": --fresh deletes it before --merge reads it; name another file with --out");
+  }
+}
+
+/// How the cells come that are not there yet.
+std::string missing_text(std::size_t missing, std::size_t wanted, bool has_merged) {
+  return std::to_string(missing) + " of " + std::to_string(wanted) + " cells are missing: " +
+         (has_merged ? "the same command without --merge runs them\n" : "the same command goes on\n");
 }
 
 std::vector<std::size_t> cells_to_run(std::size_t runs, const Shard& shard,
@@ -198,12 +225,9 @@ study::WorkCalls calls_of(const lang::Study& study) {
   return calls;
 }
 
-}  // namespace
-
-int sweep(const SweepArguments& arguments) {
-  require_file(arguments.study);
-  const std::unique_ptr<study::Messages> others = study::messages_of_job(optional_part("zwang_mpi.so"));
+int sweep_among(const SweepArguments& arguments, study::Messages* others) {
   if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
+  require_places(arguments);
   const Shard shard = shard_of(arguments.shard);
   lang::Diagnostics diagnostics;
   const std::optional<lang::Study> study = lang::load_study(arguments.study, diagnostics);
@@ -220,13 +244,19 @@ int sweep(const SweepArguments& arguments) {
   }
   const std::size_t runs = arguments.runs.value_or(study->runs);
   const std::string path = results_path(arguments, shard);
-  if (arguments.fresh) remove_results(path);
+  require_others(arguments, path);
+  study::SoleWriter writer(path);
+  if (arguments.fresh) {
+    study::ResultStore::require_results(path);
+    writer.begin_anew();
+  }
   study::ResultStore store(path, study::identity_of(*study, identity));
   for (const std::string& other : arguments.merged) store.merge(other);
   const std::vector<std::size_t> cells =
       arguments.merged.empty() ? cells_to_run(runs, shard, store.cells()) : std::vector<std::size_t>();
   const std::size_t wanted = (runs + shard.of - 1 - shard.first) / shard.of;
-  SweepProgress progress(*study, store.records(runs), wanted, arguments.format == Format::human);
+  SweepProgress progress(*study, store.records(runs), wanted, arguments.format == Format::human,
+                         others != nullptr);
   calls.done = [&](const study::CellRecord& record) {
     store.put(record);
     progress.count(record);
@@ -251,6 +281,7 @@ int sweep(const SweepArguments& arguments) {
   } else {
     print(with_marked_verdicts(study::human_report(*study, report, command)));
     print("results in " + path + "\n");
+    if (report.runs < wanted) print(missing_text(wanted - report.runs, wanted, !arguments.merged.empty()));
   }
   if (arguments.report) {
     const std::string page = write_sweep_page(*study, report, records, command,
@@ -260,6 +291,22 @@ int sweep(const SweepArguments& arguments) {
   if (arguments.junit) write_file(*arguments.junit, study::junit_report(*study, report));
   if (report.is_broken()) return exit_bad;
   return report.runs < wanted ? exit_impossible : exit_good;
+}
+
+}  // namespace
+
+int sweep(const SweepArguments& arguments) {
+  require_file(arguments.study);
+  const std::unique_ptr<study::Messages> others = study::messages_of_job(optional_part("zwang_mpi.so"));
+  if (!others) return sweep_among(arguments, nullptr);
+  ::setenv("NO_COLOR", "1", 0);  // the terminal of rank 0 is mpirun's, not the user's
+  try {
+    return sweep_among(arguments, others.get());
+  } catch (const std::exception& error) {
+    // A rank that fails ends the job at once, and main would never tell why.
+    print_error("zwang: rank " + std::to_string(others->rank()) + ": " + error.what() + "\n");
+    throw;
+  }
 }
 
 }  // namespace zwang::cli

@@ -36,9 +36,8 @@ struct Line {
 std::vector<Line> lines_of(const std::vector<solver::Row>& rows) {
   std::vector<Line> lines;
   for (const solver::Row& row : rows) {
-    const bool is_range = row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower;
     const Eigen::Vector3d along = row.a.linear;
-    if (row.body != 0 || is_range || along.norm() < least_share) continue;
+    if (row.body != 0 || solver::is_limit(row.kind) || along.norm() < least_share) continue;
     const Eigen::Vector3d a = along.normalized();
     constexpr double parallel = 1.0 - 1e-6;  // 0.08 deg
     const auto same = [&](const Line& line) { return std::abs(line.along.dot(a)) > parallel; };

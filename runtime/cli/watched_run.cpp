@@ -114,7 +114,7 @@ void WatchedRun::conclude(PlantStatus status, double elapsed) {
     report.why.reset();
   }
   for (const lang::Fault& fault : parts_.plant.faults()) {
-    if (fault.at < elapsed) report.faults.push_back({fault.at, fault.span});
+    if (fault.at < elapsed && !fault.is_drawn) report.faults.push_back({fault.at, fault.span});
   }
   const auto began = [](const FaultReport& a, const FaultReport& b) { return a.at < b.at; };
   std::stable_sort(report.faults.begin(), report.faults.end(), began);

@@ -22,13 +22,23 @@ std::string short_number(double value) {
   return text;
 }
 
-/// With as many digits as tell it from 100 %: 99.97 %.
-std::string percent_of(double share, int digits = 2) {
-  const double rest = std::min(share, 1.0 - share);
+/// In percent, with as many digits as tell `rest` from 0.
+std::string percent_text(double share, double rest, int digits) {
+  rest = std::abs(rest);
   if (rest > 0.0) digits = std::max(digits, static_cast<int>(std::ceil(-std::log10(100.0 * rest))) + 1);
   char text[32];
   std::snprintf(text, sizeof text, "%.*f %%", std::min(digits, 8), 100.0 * share);
   return text;
+}
+
+/// A share is told from 0 and from 100 %: 99.97 %.
+std::string percent_of(double share) {
+  return percent_text(share, std::min(share, 1.0 - share), 2);
+}
+
+/// A margin is told from 0 alone.
+std::string margin_text(double margin) {
+  return percent_text(margin, margin, 1);
 }
 
 std::string wanted_text(const lang::Claim& claim) {
@@ -84,7 +94,7 @@ void describe_claim(const ClaimReport& claim, std::ostringstream& out) {
   if (claim.margins) {
     out << "                margin";
     for (std::size_t i = 0; i < margin_shares.size(); ++i) {
-      out << (i == 0 ? " " : ", ") << percent_of((*claim.margins)[i], 1)
+      out << (i == 0 ? " " : ", ") << margin_text((*claim.margins)[i])
           << (margin_shares[i] == 0.0   ? std::string(" at least")
               : margin_shares[i] == 0.5 ? std::string(" in the middle")
                                         : " of the worst " + short_number(100.0 * margin_shares[i]) + " %");
@@ -134,13 +144,13 @@ std::string human_report(const lang::Study& study, const StudyReport& report, co
   for (const ClaimReport& claim : report.claims) describe_claim(claim, out);
   for (const GroupReport& group : report.groups)
     out << "  " << group.holds << "/" << group.runs << " cells hold with " << lang::printable(group.name)
-        << (group.margin ? ", margin " + percent_of(*group.margin, 1) + " at least" : std::string()) << "\n";
+        << (group.margin ? ", margin " + margin_text(*group.margin) + " at least" : std::string()) << "\n";
   if (report.worst.empty()) return out.str();
   out << "worst cells\n";
   std::map<std::string, std::size_t> first_with;  // the reason, told once
   for (const WorstCell& cell : report.worst) {
     out << "  " << cell.record.cell << "  " << cell.record.outcome << "  "
-        << (cell.margin ? "margin " + percent_of(*cell.margin, 1) : std::string("missed")) << "  "
+        << (cell.margin ? "margin " + margin_text(*cell.margin) : std::string("missed")) << "  "
         << lang::printable(study.claims[cell.claim].text) << "\n      " << drawn_text(study, cell.record)
         << "\n";
     const std::string& why = cell.record.why.empty() ? cell.record.because : cell.record.why;

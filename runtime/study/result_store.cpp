@@ -119,13 +119,20 @@ CellRecord taken_from(Statement& row, std::size_t draws, std::size_t claims) {
   return record;
 }
 
-/// The fingerprint of the study whose results the file holds; empty: it holds none yet.
+/// The fingerprint of the study whose results the file holds; empty: it holds nothing yet. Throws where it
+/// holds something else.
 std::string fingerprint_in(sqlite3* handle, const std::string& path) {
-  Statement table(handle, path, "SELECT count(*) FROM sqlite_master WHERE name = 'study'");
-  table.step();
-  if (table.count() == 0) return {};
-  Statement said(handle, path, "SELECT value FROM study WHERE key = 'fingerprint'");
-  return said.step() ? said.text() : std::string();
+  std::string reason = path + ": other tables";
+  try {
+    Statement tables(handle, path, "SELECT count(*) FROM sqlite_master");
+    tables.step();
+    if (tables.count() == 0) return {};
+    Statement said(handle, path, "SELECT value FROM study WHERE key = 'fingerprint'");
+    if (said.step()) return said.text();
+  } catch (const std::runtime_error& error) {
+    reason = error.what();
+  }
+  throw std::runtime_error(reason + ". This is no file of results: name another one with --out");
 }
 
 }  // namespace
@@ -215,6 +222,11 @@ void ResultStore::make_tables() {
   said.give(identity.fingerprint);
   said.step();
   database_->run("COMMIT");
+}
+
+void ResultStore::require_results(const std::string& path) {
+  const Database database(path);
+  fingerprint_in(database.handle, path);
 }
 
 ResultStore::~ResultStore() {

@@ -25,6 +25,8 @@ class ResultStore {
   /// Throws std::runtime_error where the file cannot be written, or is made for something else.
   ResultStore(const std::string& path, const StudyIdentity& identity);
   ~ResultStore();
+  /// Throws where the file holds something else than results of any study.
+  static void require_results(const std::string& path);
 
   std::set<std::size_t> cells() const;
   /// Kept by the next `keep`, and by each 256th cell: a process that is killed loses no more.

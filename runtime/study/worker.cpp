@@ -5,10 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -76,7 +77,11 @@ std::optional<CellRecord> Worker::outcome(double limit) {
   pollfd file{answers_, POLLIN, 0};
   if (::poll(&file, 1, 0) > 0) return answer();
   const double busy_for = std::chrono::duration<double>(Clock::now() - begin_).count();
-  if (busy_for > limit) return give_up("took longer than " + std::to_string(std::lround(limit)) + " s");
+  if (busy_for > limit) {
+    std::array<char, 32> seconds{};
+    std::snprintf(seconds.data(), seconds.size(), "%g s", limit);
+    return give_up("took longer than " + std::string(seconds.data()));
+  }
   return std::nullopt;
 }
 

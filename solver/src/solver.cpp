@@ -17,16 +17,8 @@ namespace {
 
 /// Rows on the base's own freedoms.
 int base_freedoms(const Model& model, bool wanted) {
-  if (!wanted) return 0;
-  switch (model.base_type()) {
-    case BaseType::fixed:
-      return 0;
-    case BaseType::floating:
-      return 6;
-    case BaseType::ground:
-      return 3;
-  }
-  return 0;
+  if (!wanted || model.base_type() == BaseType::fixed) return 0;
+  return model.base_type() == BaseType::floating ? 6 : 3;
 }
 
 /// A unit force along a freedom of the base: on the ground rz, x, y, else all six.

@@ -67,8 +67,7 @@ std::vector<std::vector<solver::Row>> limits_of(Standing& bench) {
     EXPECT_TRUE(constraints.fill(bench.program.robot.model, bench.sensed.state));
     limits.emplace_back();
     for (const solver::Row& row : constraints.rows()) {
-      if (row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower)
-        limits.back().push_back(row);
+      if (solver::is_limit(row.kind)) limits.back().push_back(row);
     }
   }
   return limits;

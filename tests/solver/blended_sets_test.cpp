@@ -117,7 +117,7 @@ TEST(BlendedSets, ARangeThatAllSetsKeepIsKept) {
         alone.push_back(b.solve({&one, 1}));
       }
       for (std::size_t i = 0; i < b.shared.size(); ++i) {
-        if (b.shared[i].kind != RowKind::upper && b.shared[i].kind != RowKind::lower) continue;
+        if (!is_limit(b.shared[i].kind)) continue;
         const double most =
             std::max(std::abs(alone[0].rows[i].residual), std::abs(alone[1].rows[i].residual));
         EXPECT_LE(std::abs(got.rows[i].residual), most + 1e-9) << to_string(robot) << " " << seed;

@@ -43,7 +43,7 @@ bool is_finite(const Solution& s) {
 
 /// The error of a row's force, in words; empty: the force is inside its bounds.
 std::string beyond_bounds(const Row& row, const RowSolution& got, int lowest_level) {
-  const bool is_one_sided = row.kind == RowKind::upper || row.kind == RowKind::lower;
+  const bool is_one_sided = is_limit(row.kind);
   double low = row.lo;
   double high = row.hi;
   if (is_one_sided && row.level < lowest_level) {  // below its own level it holds with what that takes

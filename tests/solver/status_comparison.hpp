@@ -64,7 +64,7 @@ class StatusOracle {
   }
   bool is_below_limits(int level) const {
     return std::any_of(rows_.begin(), rows_.end(), [&](const solver::Row& row) {
-      return (row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower) && row.level < level;
+      return solver::is_limit(row.kind) && row.level < level;
     });
   }
   bool has_sum(int level) const {

@@ -8,6 +8,8 @@ cell runs again alone, bit for bit. Ends with 1 and says why when anything is ot
 
 import json
 import pathlib
+import re
+import resource
 import shutil
 import signal
 import sqlite3
@@ -68,6 +70,50 @@ def rows(path):
         return [row[:wall] + row[wall + 1:] for row in cursor]
 
 
+def check_places(program, folder, zwang, reference):
+    """What is at the places that are read and written is kept, and told before any cell runs."""
+    def refuses(what, *arguments):
+        ended = zwang("sweep", "study.yaml", *arguments)
+        expect(ended.returncode == 2 and what in ended.stderr and "cells;" not in ended.stdout,
+               f"{arguments}: {ended.stdout}{ended.stderr}")
+
+    with sqlite3.connect(folder / "other.db") as database:
+        database.execute("CREATE TABLE cells (a)")
+    for other in ("study.yaml", "other.db"):
+        before = (folder / other).read_bytes()
+        refuses("no file of results", "--out", other)
+        refuses("no file of results", "--out", other, "--fresh")
+        expect((folder / other).read_bytes() == before, f"{other} was written to")
+    refuses("deletes it before", "--fresh", "--out", "alone.db", "--merge", "./alone.db")
+    expect(rows(folder / "alone.db") == reference, "results that are merged into themselves are lost")
+    refuses("No such file", "--out", "absent/study.db")
+    refuses("there is no folder absent", "--out", "junit.db", "--junit", "absent/junit.xml")
+
+    part = zwang("sweep", "study.yaml", "--out", "part.db", "--merge", "study.1-of-2.db")
+    expect(part.returncode == 2 and "4 of 8 cells are missing" in part.stdout, f"a part is missing: {part.stdout}")
+    limited = subprocess.run([program, "sweep", "study.yaml", "-j", "1", "--out", "limited.db"], cwd=folder,
+                             capture_output=True, text=True,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000)))
+    expect(limited.returncode == 2 and "limited.db" in limited.stderr, f"a file that may not grow: {limited}")
+    again = zwang("sweep", "study.yaml", "-j", "1", "--out", "limited.db")
+    expect(again.returncode == 0 and rows(folder / "limited.db") == reference, f"after that: {again.stderr}")
+
+
+def check_one_writer(program, folder, zwang):
+    """Two sweeps at once: the second one neither runs the cells again nor deletes what the first one writes."""
+    first = subprocess.Popen([program, "sweep", "study.yaml", "-j", "1", "--runs", "10000", "--out", "shared.db"],
+                             cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for _ in range(2000):
+        time.sleep(0.01)
+        if (folder / "shared.db").exists() and cells(folder / "shared.db") >= 1:
+            break
+    second = zwang("sweep", "study.yaml", "--out", "shared.db", "--fresh")
+    expect(second.returncode == 2 and "another `zwang sweep`" in second.stderr, f"two at once: {second}")
+    kept = cells(folder / "shared.db")
+    first.send_signal(signal.SIGINT)
+    expect(first.wait() == 2 and cells(folder / "shared.db") >= kept >= 1, "the first of two sweeps lost its cells")
+
+
 def main(program, specs):
     folder = pathlib.Path(tempfile.mkdtemp(prefix="zwang_sweep_"))
     shutil.copytree(pathlib.Path(specs) / "robots", folder / "robots")
@@ -86,7 +132,9 @@ def main(program, specs):
     expect(pace is not None and pace < -0.7, f"the margin of the speed goes with the pace by {pace}")
     reference = rows(folder / "alone.db")
 
-    zwang("sweep", "study.yaml", "-j", "3", "--out", "three.db")
+    three = zwang("sweep", "study.yaml", "-j", "3", "--out", "three.db")
+    # The base comes 1 cm far, of 10 m: a margin of 99.9 % or more, told to a tenth.
+    expect(re.search(r"margin (99\.9|100\.0) % at least", three.stdout), f"margins: {three.stdout}")
     expect(rows(folder / "three.db") == reference, "three processes have other results than one")
 
     killed = subprocess.Popen([program, "sweep", "study.yaml", "-j", "2", "--out", "killed.db"], cwd=folder,
@@ -107,12 +155,29 @@ def main(program, specs):
     merged = zwang("sweep", "study.yaml", "--out", "merged.db", "--merge", "study.1-of-2.db", "study.2-of-2.db")
     expect(merged.returncode == 0 and rows(folder / "merged.db") == reference, f"parts: {merged.stderr}")
 
+    page = (pathlib.Path(specs).parent / "docs/studies.md").read_text()
+    snippet = re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1)
+    of_this_study = snippet.replace("study.db", "alone.db").replace("params.push", "params.pace")
+    python = subprocess.run([sys.executable, "-c", of_this_study], cwd=folder, capture_output=True, text=True)
+    lines = [float(line.split()[2]) for line in python.stdout.splitlines()]
+    expect(len(lines) == 5 and lines == sorted(lines), f"docs/studies.md: {python.stdout}{python.stderr}")
+
+    check_places(program, folder, zwang, reference)
+    check_one_writer(program, folder, zwang)
+
     if shutil.which("mpirun") and (pathlib.Path(program).parent / "zwang_mpi.so").exists():
-        ranks = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3", program, "sweep",
-                                "study.yaml", "--out", "ranks.db"], cwd=folder, capture_output=True, text=True)
+        def in_a_job(*arguments):
+            return subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3", program, "sweep",
+                                   "study.yaml", *arguments], cwd=folder, capture_output=True, text=True)
+
+        ranks = in_a_job("--out", "ranks.db")
         expect(ranks.returncode == 0, f"under mpirun: {ranks.stderr}{ranks.stdout}")
         expect(rows(folder / "ranks.db") == reference, "three ranks have other results than one process")
         expect(ranks.stdout.count("8 of 8 cells") == 1, f"each rank reports: {ranks.stdout}")
+        expect("\x1b" not in ranks.stdout, f"a pipe gets what a terminal would: {ranks.stdout!r}")
+        lost = in_a_job("--out", "absent/ranks.db")
+        expect(lost.returncode != 0 and "absent/ranks.db: cannot be written" in lost.stderr,
+               f"rank 0 does not say why it ends: {lost.stderr}")
 
     for log in ("first", "second"):
         one = zwang("run", "study.yaml", "--cell", "5", "--log", log, "--format", "json")
@@ -120,6 +185,11 @@ def main(program, specs):
     csv = [zwang("log", log).stdout for log in ("first", "second")]
     expect(csv[0] == csv[1] and len(csv[0]) > 1000, "a cell that runs again has another log")
     told = json.loads(one.stdout)
+    # What is drawn of the robot is no fault; the set `slip` is.
+    for faults in ("none", "slip"):
+        cell = next(row[0] for row in reference if row[1] == f"faults {faults}")
+        truth = zwang("run", "study.yaml", "--cell", str(cell), "--log", f"faults_{faults}").stdout
+        expect(("of the cell, from" in truth) == (faults == "slip"), f"faults of cell {cell}: {truth}")
     expect(abs(told["elapsed"] - reference[5][5]) < 2e-3, f"{told['elapsed']} s alone, {reference[5][5]} s in the sweep")
     # Where the base is as the task ends: to all digits that the log prints.
     lines = csv[0].splitlines()

@@ -26,6 +26,22 @@ TEST(Workers, RunEachCellOnce) {
   EXPECT_TRUE(none.empty());
 }
 
+TEST(Workers, TheLimitIsToldAsItWasGiven) {
+  std::map<std::size_t, std::string> outcomes;
+  std::string why;
+  WorkCalls calls = calls_of(outcomes);
+  calls.run = [](std::size_t cell) {
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+    return made_outcome(cell, "done");
+  };
+  calls.fail = [&](std::size_t cell, const std::string& outcome, const std::string& because) {
+    why = because;
+    return made_outcome(cell, outcome);
+  };
+  run_all(first_cells(1), {.processes = 1, .cell_limit = 0.25}, calls);
+  EXPECT_EQ(why, "took longer than 0.25 s");
+}
+
 TEST(Workers, TellOfACellThatCrashesHangsOrThrows) {
   std::map<std::size_t, std::string> outcomes;
   WorkCalls calls = calls_of(outcomes);

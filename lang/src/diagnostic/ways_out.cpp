@@ -136,6 +136,8 @@ constexpr WayOut ways[] = {
     {"object", " velocity vel speed twist ",
      "an object moves from point to point: `motion: [{time: 0 s, at: [2 m, 0 m]}, {time: 5 s, at: [3 m, 0 "
      "m]}]`"},
+    {"a study", " task robot scene params start_at start_yaw matrix faults blend ",
+     "`scenario` names a file that says it: write it there, or leave `scenario` out"},
     {"a scene file", " gravity ", "gravity is that of the earth, along the world's -z"},
     {"a scene file", " timestep dt option ",
      "a simulation takes steps of 1 ms at most; how often the robot's loop ticks is its `control_period`"},

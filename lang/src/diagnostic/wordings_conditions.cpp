@@ -48,7 +48,7 @@ Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
                : text == "in"     ? "write both ends: `low < a and a < high`"
                : text == "\u2265" ? "write `>=`"
                : text == "\u2264" ? "write `<=`"
-                                  : "");
+                                  : "a comparison is written as `elapsed > 2 s`");
 }
 
 Diagnostic missing_argument(const Span& span, const std::string& function) {

@@ -75,7 +75,10 @@ Diagnostic unlike_operands(const Span& span, const std::string& op, const Dimens
                            const Dimension& right) {
   const bool compares = op[0] == '<' || op[0] == '>';
   const std::string verb = compares ? "compared with " : op == "+" ? "added to " : "set off against ";
-  return error("E202", span, describe(left) + " cannot be " + verb + describe(right));
+  const std::string a = usual_unit(left), b = usual_unit(right);
+  const std::string units = a.empty() || b.empty() ? "" : ": " + in_ticks(a) + " or " + in_ticks(b);
+  return error("E202", span, describe(left) + " cannot be " + verb + describe(right),
+               "give both the same unit" + units);
 }
 
 Diagnostic unknown_unit(const Span& span, const std::string& text, const std::string& unknown,

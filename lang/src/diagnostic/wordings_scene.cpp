@@ -91,10 +91,12 @@ Diagnostic unknown_task_parameter(const Span& span, const std::string& name, con
 
 Diagnostic refused_cell(const std::vector<Span>& spans, const std::string& cell, const std::string& code,
                         const std::string& reason, const std::string& place) {
+  // A value that the cell gives stands in no file of the task.
+  const std::string where = place.starts_with("-p:") ? "" : " at " + place;
   Diagnostic diagnostic =
       error("E912", spans.front(),
-            "in the cell `" + cell + "` the task is refused, and nothing expects it: " + code + " at " +
-                place + ", " + reason,
+            "in the cell `" + cell + "` the task is refused, and nothing expects it: " + code + where + ", " +
+                reason,
             "leave this out of the matrix, or write `- diagnostic: " + code + "`");
   const auto is_same = [](const Span& a, const Span& b) {
     return a.source == b.source && a.begin.line == b.begin.line && a.begin.column == b.begin.column;

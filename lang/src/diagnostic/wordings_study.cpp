@@ -36,8 +36,9 @@ Diagnostic bad_distribution(const Span& span, const std::string& why, const std:
 }
 
 Diagnostic no_certainty(const Span& span, const std::string& what, const std::string& text) {
+  const bool is_without_sign = !text.empty() && text.find_first_not_of("0123456789.") == std::string::npos;
   return error("E933", span, what + " is between 0 and 100 %, and `" + text + "` is not",
-               "write a share that runs can show, as `99.9 %`");
+               is_without_sign ? "write `" + text + " %`" : "write a share that runs can show, as `99.9 %`");
 }
 
 Diagnostic too_few_runs(const Span& span, const std::string& probability, const std::string& confidence,

@@ -19,35 +19,32 @@ std::string kibibytes(std::size_t bytes) {
 
 /// yaml-cpp's reasons in the words of an author.
 struct Reason {
-  std::string_view theirs;
-  std::string_view message;
-  std::string_view help;
+  std::string_view theirs, message, help;
 };
-constexpr std::array reasons{
-    Reason{"illegal map value", "a `: ` is not expected here",
-           "lines that belong together start in the same column; give every key a line of its own and a `:`, "
-           "the line above too; quote text that holds a `: `"},
-    Reason{"illegal map key", "a key is not expected here", "give every key a line of its own"},
-    Reason{"illegal flow end", "this bracket closes nothing", ""},
-    Reason{"illegal block entry", "a list item `- ` is not expected here",
-           "put lists on the lines below their key"},
-    Reason{"end of map flow not found", "a `{` is not closed before this place",
-           "close it with `}`, or part its entries with commas"},
-    Reason{"end of sequence flow not found", "a `[` is not closed before this place", "close it with `]`"},
-    Reason{"end of map not found", "this line does not fit the lines above it",
-           "lines that belong together start in the same column"},
-    Reason{"no colon behind a key", "a `:` is missing behind this word", "write `key: value`"},
-    Reason{"end of sequence not found", "this line does not fit the list above it",
-           "items of a list start in the same column"},
-    Reason{"unexpected character in block scalar", "a value that starts with | or > must be quoted", ""},
-    Reason{"illegal EOF in scalar", "the file ends inside a quoted text", "close the quote"},
-    Reason{"unknown token", "this cannot start a value", "quote text that starts with a special character"},
-    Reason{"unknown escape character", "this escape is not known",
-           "use single quotes, or `\\\\` for a backslash"},
-    Reason{"alias not found after *", "a value cannot start with `*`", ""},
-    Reason{"anchor not found after &", "a value cannot start with `&`", ""},
-    Reason{"cannot start any token", "this cannot start a value", "quote it"},
-};
+constexpr auto reasons = std::to_array<Reason>({
+    {"illegal map value", "a `: ` is not expected here",
+     "lines that belong together start in the same column; give every key a line of its own and a `:`, "
+     "the line above too; quote text that holds a `: `"},
+    {"illegal map key", "a key is not expected here", "give every key a line of its own"},
+    {"illegal flow end", "this bracket closes nothing", "delete it, or close the one that is open"},
+    {"illegal block entry", "a list item `- ` is not expected here",
+     "put lists on the lines below their key"},
+    {"end of map flow not found", "a `{` is not closed before this place",
+     "close it with `}`, or part its entries with commas"},
+    {"end of sequence flow not found", "a `[` is not closed before this place", "close it with `]`"},
+    {"end of map not found", "this line does not fit the lines above it",
+     "lines that belong together start in the same column"},
+    {"no colon behind a key", "a `:` is missing behind this word", "write `key: value`"},
+    {"end of sequence not found", "this line does not fit the list above it",
+     "items of a list start in the same column"},
+    {"unexpected character in block scalar", "a value that starts with | or > must be quoted", ""},
+    {"illegal EOF in scalar", "the file ends inside a quoted text", "close the quote"},
+    {"unknown token", "this cannot start a value", "quote text that starts with a special character"},
+    {"unknown escape character", "this escape is not known", "use single quotes, or `\\\\` for a backslash"},
+    {"alias not found after *", "a value cannot start with `*`", ""},
+    {"anchor not found after &", "a value cannot start with `&`", ""},
+    {"cannot start any token", "this cannot start a value", "quote it"},
+});
 
 }  // namespace
 
@@ -150,7 +147,7 @@ Diagnostic merge_key(const Span& span) {
 
 Diagnostic duplicate_key(const Span& span, const std::string& key, const Span& first) {
   return error("E102", span, in_ticks(key) + " is given twice",
-               "first given on line " + std::to_string(first.begin.line));
+               "keep one of them; the first stands on line " + std::to_string(first.begin.line));
 }
 
 Diagnostic too_deep(const Span& span, int limit) {
@@ -195,25 +192,24 @@ Diagnostic missing_version(const Span& span, const std::string& what, const std:
 }
 
 Diagnostic another_kind_of_file(const Span& span, const std::string& what, const std::string& key) {
-  const bool is_task_wanted = what == "a task file";
-  std::string is = "a task file", help = "name " + what + " here";
-  if (key == "zwang_scene") {
-    is = "a scene file";
-    if (is_task_wanted) help = "give the task file; this one is for its `scene`, or for `--scene`";
-  } else if (key == "zwang_robot") {
-    is = "a robot file";
-    if (is_task_wanted) help = "give the task file; this one is for its `robot`, or for `--robot`";
-  } else if (key == "zwang_scenario") {
-    is = "a scenario file";
-    if (is_task_wanted) help = "`zwang test` runs it";
-  } else if (key == "zwang_connection") {
-    is = "a connection file";
-    if (is_task_wanted) help = "give the task file; this one is for `zwang drive TASK --over`";
-  } else if (key == "zwang_study") {
-    is = "a study";
-    if (is_task_wanted) help = "`zwang sweep` runs it";
+  struct Kind {
+    std::string_view key, name, help_for_a_task;
+  };
+  constexpr auto kinds = std::to_array<Kind>({
+      {"zwang_scene", "a scene file", "give the task file; this one is for its `scene`, or for `--scene`"},
+      {"zwang_robot", "a robot file", "give the task file; this one is for its `robot`, or for `--robot`"},
+      {"zwang_scenario", "a scenario file", "`zwang test` runs it"},
+      {"zwang_connection", "a connection file",
+       "give the task file; this one is for `zwang drive TASK --over`"},
+      {"zwang_study", "a study", "`zwang sweep` runs it"},
+  });
+  std::string name = "a task file", help = "name " + what + " here";
+  for (const Kind& kind : kinds) {
+    if (kind.key != key) continue;
+    name = kind.name;
+    if (what == "a task file") help = kind.help_for_a_task;
   }
-  return error("E103", span, "this is " + is + ", not " + what, help);
+  return error("E103", span, "this is " + name + ", not " + what, help);
 }
 
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
@@ -259,12 +255,13 @@ Diagnostic expected_value(const Span& span, const std::string& what, bool is_emp
 }
 
 Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high) {
-  return error("E105", span,
-               what + " must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  const std::string ends = std::to_string(low) + " to " + std::to_string(high);
+  return error("E105", span, what + " must be a whole number from " + ends,
+               "write its digits alone, for example `" + std::to_string(std::max(low, 1)) + "`");
 }
 
 Diagnostic expected_boolean(const Span& span, const std::string& what) {
-  return error("E105", span, what + " must be true or false");
+  return error("E105", span, what + " must be true or false", "write `true` or `false`");
 }
 
 Diagnostic expected_condition(const Span& span) {
@@ -292,8 +289,9 @@ Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fe
                        std::size_t found) {
   const std::string count =
       fewest == most ? std::to_string(fewest) : std::to_string(fewest) + " to " + std::to_string(most);
-  return error("E104", span,
-               what + " takes " + count + " values, but " + std::to_string(found) + " are given");
+  const std::string given = std::to_string(found) + (found == 1 ? " is given" : " are given");
+  return error("E104", span, what + " takes " + count + " values, but " + given,
+               "write as many between `[` and `]`, with commas between them");
 }
 
 Diagnostic range_ends(const Span& span, std::size_t found) {
@@ -341,17 +339,15 @@ Diagnostic not_a_value(const Span& span, const std::string& text) {
   const bool is_bound = text.starts_with('<') || text.starts_with('>') || text.starts_with("max ") ||
                         text.starts_with("min ") || text.starts_with("up to ") ||
                         text.find("..") != std::string::npos;
-  if (is_bound)
-    return error("E105", span, in_ticks(text) + " is not a value",
-                 "a bound is a range: write `[low, high]`, or `+-10 N`");
-  if (text.starts_with("+/-"))
-    return error("E105", span, in_ticks(text) + " is not a value",
-                 "write `+-" + escaped(trimmed(std::string_view(text).substr(3))) + "`");
-  if (text == "inf" || text == ".inf" || text == "-.inf" || text == "infinity")
-    return error("E105", span, in_ticks(text) + " is not a value",
-                 "a range has two ends: write one that the robot never comes to");
-  return error("E105", span, in_ticks(text) + " is not a value",
-               "write a number with its unit, as `0.08 m/s`, or a parameter, as `$push`");
+  std::string help = "write a number with its unit, as `0.08 m/s`, or a parameter, as `$push`";
+  if (is_bound) {
+    help = "a bound is a range: write `[low, high]`, or `+-10 N`";
+  } else if (text.starts_with("+/-")) {
+    help = "write `+-" + escaped(trimmed(std::string_view(text).substr(3))) + "`";
+  } else if (text == "inf" || text == ".inf" || text == "-.inf" || text == "infinity") {
+    help = "a range has two ends: write one that the robot never comes to";
+  }
+  return error("E105", span, in_ticks(text) + " is not a value", help);
 }
 
 Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dimension& expected) {
@@ -361,7 +357,8 @@ Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dime
 }
 
 Diagnostic number_out_of_range(const Span& span, const std::string& text) {
-  return error("E105", span, in_ticks(text) + " is too large or too small a number");
+  return error("E105", span, in_ticks(text) + " is too large or too small a number",
+               "choose a unit in which it has fewer digits");
 }
 
 Diagnostic split_condition(const Span& span) {

@@ -281,7 +281,8 @@ void parse_scenario_keys(MapReader& map, bool of_study, ScenarioFile& file, Diag
   if (const Node* matrix = map.optional("matrix")) parse_matrix(*matrix, file, diagnostics);
   complain_of_repetitions(file, diagnostics);
   if (const Node* faults = map.optional("faults")) parse_fault_sets(*faults, file, diagnostics);
-  if (const Node* expect = map.required("expect")) parse_expectations(*expect, of_study, file, diagnostics);
+  if (const Node* expect = map.required("expect", "[{outcome: done}]"))
+    parse_expectations(*expect, of_study, file, diagnostics);
 }
 
 std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics) {

@@ -184,6 +184,7 @@ Fault whole_run(FaultKind kind, double value) {
   Fault fault;
   fault.kind = kind;
   fault.value = value;
+  fault.is_drawn = true;
   return fault;
 }
 

@@ -172,8 +172,21 @@ class StudyReader {
     }
     if (expects_refusal(file_, codes)) return;
     const std::string place = d->span.exists() ? of_task.source(d->span.source).path : std::string();
-    diagnostics_.add(wording::refused_draw(spans, cell, d->code, d->message,
-                                           place + ":" + std::to_string(d->span.begin.line)));
+    const Span chosen = choice_of(place);
+    diagnostics_.add(wording::refused_draw(chosen.exists() ? std::vector{chosen} : spans, cell, d->code,
+                                           d->message, place + ":" + std::to_string(d->span.begin.line)));
+  }
+
+  /// Where the study chooses the file among others; nowhere: it does not.
+  Span choice_of(const fs::path& file) const {
+    std::error_code error;
+    for (const DrawText& draw : text_.draws) {
+      if (!is_name(draw.name.text)) continue;
+      for (const Node& item : draw.numbers.items) {
+        if (fs::equivalent(path_.parent_path() / item.text, file, error)) return item.span;
+      }
+    }
+    return {};
   }
 
   bool read_draws() {

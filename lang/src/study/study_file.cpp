@@ -108,7 +108,7 @@ std::optional<StudyFile> parse_study_file(const Document& document, Diagnostics&
   MapReader map(document.root, "a study", diagnostics);
   if (!map.is_mapping() || !check_version(map, "zwang_study", 1, diagnostics)) return std::nullopt;
   StudyFile file;
-  if (const Node* runs = map.required("runs")) {
+  if (const Node* runs = map.required("runs", "1000")) {
     file.runs_text = {runs->text, runs->span};
     file.runs =
         static_cast<std::size_t>(parse_integer(*runs, "`runs`", 1, most_runs, diagnostics).value_or(1));

@@ -73,6 +73,8 @@ int parse_and_do(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A reader that went away is an error that `print` sees, not a silent death.
   std::signal(SIGPIPE, SIG_IGN);
+  // So is a file that may not grow, by `ulimit -f`.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     secure_standard_streams();
     return parse_and_do(argc, argv);

@@ -23,10 +23,6 @@ bool drives(const Row& row) noexcept {
   return row.kind == RowKind::driver || row.kind == RowKind::force;
 }
 
-bool is_limit(const Row& row) noexcept {
-  return row.kind == RowKind::upper || row.kind == RowKind::lower;
-}
-
 /// Of its force.
 solver::Range bounds_of(const Row& row) noexcept {
   switch (row.kind) {
@@ -167,7 +163,7 @@ void RowBounds::look_at_set(const solver::Solver& solver, const std::vector<Row>
     solver.force_on_motions(first + static_cast<int>(k), p_);
     const double square = p_.head(m).squaredNorm();
     if (square == 0.0) continue;
-    if (is_limit(row)) {
+    if (is_limit(row.kind)) {
       add_limit(row, solution);
       continue;
     }

@@ -17,8 +17,7 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     for (const solver::Row& asked : blend->sets()[set].constraints.rows()) {
       if (row == solution.rows.size()) return;
       const solver::RowSolution& answer = solution.rows[row];
-      const bool is_limit = asked.kind == solver::RowKind::upper || asked.kind == solver::RowKind::lower;
-      if (is_limit && answer.residual == 0.0) {  // it tells nothing
+      if (solver::is_limit(asked.kind) && answer.residual == 0.0) {  // it tells nothing
         ++row;
         continue;
       }

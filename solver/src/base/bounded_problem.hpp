@@ -162,9 +162,6 @@ class BoundedProblem {
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
 
-  static constexpr bool is_limit(RowKind kind) noexcept {
-    return kind == RowKind::upper || kind == RowKind::lower;
-  }
   /// Limits are posed where a level is not plain.
   void take_row(int i, const Row& row, double d) noexcept {
     Entry& e = entry(i);

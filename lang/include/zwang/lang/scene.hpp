@@ -189,6 +189,8 @@ struct Fault {
   std::string of;
   Span of_span{};
   double value = 0.0;  ///< of the kinds that have one, in the unit that FaultKind names
+  bool is_drawn =
+      false;  ///< by a study: from the start the robot differs from its model; not a fault of the run
   Span span;
 };
 

@@ -124,6 +124,11 @@ enum class RowKind {
   sum,     ///< no force of its own: lo and hi bound what all rows of its level and below press with along a
 };
 
+/// Whether a row of this kind bounds a motion from one side.
+constexpr bool is_limit(RowKind kind) noexcept {
+  return kind == RowKind::upper || kind == RowKind::lower;
+}
+
 /// One row of the bounded problem, on spatial accelerations.
 struct Row {
   RowKind kind = RowKind::driver;
