@@ -226,8 +226,8 @@ study::WorkCalls calls_of(const lang::Study& study) {
 }
 
 /// Prints and writes what the cells come to, of `wanted` ones; how the program ends.
-int tell(const SweepArguments& arguments, const lang::Study& study,
-         const std::vector<study::CellRecord>& records, std::size_t wanted, const std::string& path) {
+int tell_study(const SweepArguments& arguments, const lang::Study& study,
+               const std::vector<study::CellRecord>& records, std::size_t wanted, const std::string& path) {
   const study::StudyReport report = study::report_of(study, wanted, records);
   const std::string command = "zwang run " + argument_of_shell(arguments.study) + " --cell ";
   if (arguments.format == Format::json) {
@@ -295,7 +295,7 @@ int sweep_among(const SweepArguments& arguments, study::Messages* others) {
   store.keep();
   progress.end();
 
-  return tell(arguments, *study, store.records(runs), wanted, path);
+  return tell_study(arguments, *study, store.records(runs), wanted, path);
 }
 
 }  // namespace
