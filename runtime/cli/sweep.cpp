@@ -225,6 +225,28 @@ study::WorkCalls calls_of(const lang::Study& study) {
   return calls;
 }
 
+/// Prints and writes what the cells come to, of `wanted` ones; how the program ends.
+int tell_study(const SweepArguments& arguments, const lang::Study& study,
+               const std::vector<study::CellRecord>& records, std::size_t wanted, const std::string& path) {
+  const study::StudyReport report = study::report_of(study, wanted, records);
+  const std::string command = "zwang run " + argument_of_shell(arguments.study) + " --cell ";
+  if (arguments.format == Format::json) {
+    print_data(study::json_report(study, report));
+  } else {
+    print(with_marked_verdicts(study::human_report(study, report, command)));
+    print("results in " + path + "\n");
+    if (report.runs < wanted) print(missing_text(wanted - report.runs, wanted, !arguments.merged.empty()));
+  }
+  if (arguments.report) {
+    const std::string page =
+        write_sweep_page(study, report, records, command, fs::path(path).replace_extension(".html").string());
+    if (arguments.format == Format::human) print("page   " + page + "\n");
+  }
+  if (arguments.junit) write_file(*arguments.junit, study::junit_report(study, report));
+  if (report.is_broken()) return exit_bad;
+  return report.runs < wanted ? exit_impossible : exit_good;
+}
+
 int sweep_among(const SweepArguments& arguments, study::Messages* others) {
   if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   require_places(arguments);
@@ -273,24 +295,7 @@ int sweep_among(const SweepArguments& arguments, study::Messages* others) {
   store.keep();
   progress.end();
 
-  const std::vector<study::CellRecord> records = store.records(runs);
-  const study::StudyReport report = study::report_of(*study, wanted, records);
-  const std::string command = "zwang run " + argument_of_shell(arguments.study) + " --cell ";
-  if (arguments.format == Format::json) {
-    print_data(study::json_report(*study, report));
-  } else {
-    print(with_marked_verdicts(study::human_report(*study, report, command)));
-    print("results in " + path + "\n");
-    if (report.runs < wanted) print(missing_text(wanted - report.runs, wanted, !arguments.merged.empty()));
-  }
-  if (arguments.report) {
-    const std::string page = write_sweep_page(*study, report, records, command,
-                                              fs::path(path).replace_extension(".html").string());
-    if (arguments.format == Format::human) print("page   " + page + "\n");
-  }
-  if (arguments.junit) write_file(*arguments.junit, study::junit_report(*study, report));
-  if (report.is_broken()) return exit_bad;
-  return report.runs < wanted ? exit_impossible : exit_good;
+  return tell_study(arguments, *study, store.records(runs), wanted, path);
 }
 
 }  // namespace
