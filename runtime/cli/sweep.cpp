@@ -183,7 +183,7 @@ void require_places(const SweepArguments& arguments) {
     throw Impossible(*arguments.junit + ": there is no folder " + folder.string());
 }
 
-/// What `--merge` reads is not deleted by `--fresh`.
+/// `--fresh` may not delete what `--merge` reads.
 void require_others(const SweepArguments& arguments, const std::string& path) {
   for (const std::string& merged : arguments.merged) {
     std::error_code absent;

@@ -73,7 +73,7 @@ int parse_and_do(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A reader that went away is an error that `print` sees, not a silent death.
   std::signal(SIGPIPE, SIG_IGN);
-  // So is a file that may not grow, by `ulimit -f`.
+  // The same holds for a file that `ulimit -f` does not let grow.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     secure_standard_streams();

@@ -21,8 +21,8 @@ void ContactDepth::forget() noexcept {
   level_ = -1;
 }
 
-/// The depth and the work when the force was last this weak, before it grew: what presses on after a hit
-/// pressed before it. 0 if the force began with more.
+/// What presses on after a hit pressed before it. So the depth and the work are those of the last time that
+/// the force was this weak and grew. They are 0 if the force began with more.
 void ContactDepth::keep_what_pressed_before(int level) noexcept {
   while (level >= 0 && (level > level_ || !held_[static_cast<std::size_t>(level)].is_known)) --level;
   const Held held = level < 0 ? Held{} : held_[static_cast<std::size_t>(level)];
@@ -33,7 +33,7 @@ void ContactDepth::keep_what_pressed_before(int level) noexcept {
   level_ = level;
 }
 
-/// As the contact is pressed in. What is known of higher levels is over.
+/// As the contact is pressed in. Higher levels are forgotten: another contact had them.
 void ContactDepth::remember(int level) noexcept {
   for (int i = level_ + 1; i < level; ++i) held_[static_cast<std::size_t>(i)] = {};
   held_[static_cast<std::size_t>(level)] = {now_.depth, now_.work, true};

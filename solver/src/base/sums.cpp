@@ -64,8 +64,8 @@ void BoundedProblem::let_limits_wait() noexcept {
   posed_.resize(kept);
 }
 
-/// Adds the sum that the motion in work_ breaks most, and the waiting limits without room: a limit joins,
-/// too, if it has none at felt_, for then it wants to push. False where nothing joins.
+/// Adds the sum that the motion in work_ breaks most, and each waiting limit without room. A limit without
+/// room at felt_ joins, too: it wants to push. False where nothing joins.
 bool BoundedProblem::pose_broken(int level) noexcept {
   int worst = -1;
   double most = 0.0;
@@ -92,8 +92,9 @@ bool BoundedProblem::pose_broken(int level) noexcept {
   return worst >= 0 || kept < waiting;
 }
 
-/// The motion that the rows feel: where a sum or a limit above stands in the way, a row gets what it wants of
-/// p - sum y E, with y the multipliers of the equations and E their directions.
+/// What a row gets is what it wants of this motion, where sums and limits above stand in the way:
+///     felt = p - sum_e y_e E_e
+/// y_e is the multiplier of an equation, E_e its direction.
 void BoundedProblem::take_felt(int n, int level) noexcept {
   copy(work_, felt_);
   int equation = 0;
