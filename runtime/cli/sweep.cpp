@@ -183,9 +183,10 @@ void require_places(const SweepArguments& arguments) {
     throw Impossible(*arguments.junit + ": there is no folder " + folder.string());
 }
 
-/// `--fresh` may not delete what `--merge` reads.
+/// What `--merge` reads is there, and `--fresh` may not delete it.
 void require_others(const SweepArguments& arguments, const std::string& path) {
   for (const std::string& merged : arguments.merged) {
+    if (!fs::is_regular_file(merged)) throw Impossible(merged + ": no such file");
     std::error_code absent;
     if (arguments.fresh && fs::equivalent(merged, path, absent))
       throw Impossible(merged + ": --fresh deletes it before --merge reads it; name another file with --out");

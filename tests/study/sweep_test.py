@@ -86,6 +86,8 @@ def check_places(program, folder, zwang, reference):
         expect((folder / other).read_bytes() == before, f"{other} was written to")
     refuses("deletes it before", "--fresh", "--out", "alone.db", "--merge", "./alone.db")
     expect(rows(folder / "alone.db") == reference, "results that are merged into themselves are lost")
+    refuses("no such file", "--out", "joined.db", "--merge", "missing.db")
+    expect(not (folder / "joined.db").exists(), "a merge of a missing file leaves an empty one")
     refuses("No such file", "--out", "absent/study.db")
     refuses("there is no folder absent", "--out", "junit.db", "--junit", "absent/junit.xml")
 

@@ -60,7 +60,7 @@ Diagnostic expected_list(const Span& span, const std::string& what);
 /// `word`: what stands in it; empty: nothing that may be one.
 Diagnostic expected_word(const Span& span, const std::string& what, const std::string& word);
 Diagnostic expected_value(const Span& span, const std::string& what, bool is_empty);
-Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high);
+Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high, int meant);
 Diagnostic expected_boolean(const Span& span, const std::string& what);
 Diagnostic expected_condition(const Span& span);
 Diagnostic not_a_name(const Span& span, const std::string& text);

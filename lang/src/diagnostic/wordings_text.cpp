@@ -254,10 +254,10 @@ Diagnostic expected_value(const Span& span, const std::string& what, bool is_emp
   return error("E104", span, is_empty ? what + " has no value" : what + " must be a single value");
 }
 
-Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high) {
+Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high, int meant) {
   const std::string ends = std::to_string(low) + " to " + std::to_string(high);
   return error("E105", span, what + " must be a whole number from " + ends,
-               "write its digits alone, for example `" + std::to_string(std::max(low, 1)) + "`");
+               "write its digits alone, for example `" + std::to_string(meant) + "`");
 }
 
 Diagnostic expected_boolean(const Span& span, const std::string& what) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
@@ -42,6 +43,19 @@ std::string parse_text(const Node& node, const std::string& what, Diagnostics& d
   return node.text;
 }
 
+namespace {
+
+/// 10000 of `1e4`; else the least number above 0.
+int meant_integer(const std::string& text, int low, int high) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole =
+      error == std::errc{} && end == text.data() + text.size() && number == std::floor(number);
+  return is_whole && low <= number && number <= high ? static_cast<int>(number) : std::max(low, 1);
+}
+
+}  // namespace
+
 std::optional<int> parse_integer(const Node& node, const std::string& what, int low, int high,
                                  Diagnostics& diagnostics) {
   if (node.is_bad) return std::nullopt;
@@ -50,7 +64,7 @@ std::optional<int> parse_integer(const Node& node, const std::string& what, int 
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_whole = !text.empty() && error == std::errc{} && end == text.data() + text.size();
   if (!is_whole || value < low || value > high) {
-    diagnostics.add(wording::expected_integer(node.span, what, low, high));
+    diagnostics.add(wording::expected_integer(node.span, what, low, high, meant_integer(text, low, high)));
     return std::nullopt;
   }
   return value;
