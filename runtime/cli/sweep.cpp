@@ -183,7 +183,7 @@ void require_places(const SweepArguments& arguments) {
     throw Impossible(*arguments.junit + ": there is no folder " + folder.string());
 }
 
-/// What `--merge` reads is there, and `--fresh` may not delete it.
+/// The files that `--merge` reads exist, and `--fresh` does not delete them.
 void require_others(const SweepArguments& arguments, const std::string& path) {
   for (const std::string& merged : arguments.merged) {
     if (!fs::is_regular_file(merged)) throw Impossible(merged + ": no such file");
