@@ -178,8 +178,8 @@ TEST(RestingYaw, is_where_it_comes_if_the_friction_of_the_wall_holds_the_corner)
   }
 }
 
-// A base that slides along the wall is turned away from a yaw t beyond b, unless the friction is more than
-// tan(t - b): the wall's force then points past the base's origin to the other side.
+// A wall turns a sliding base away from a yaw t beyond b, unless the friction is more than tan(t - b). Then
+// the wall's force points past the base's origin to the other side.
 TEST(RestingYaw, is_square_beyond_the_corner_if_the_friction_turns_a_base_that_slides) {
   constexpr double degree = std::numbers::pi / 180.0;
   const std::vector<Eigen::Vector2d> front = {{0.3, -0.1}, {0.3, 0.1}, {-0.3, 0.3}, {-0.3, -0.3}};

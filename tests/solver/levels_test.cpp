@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "carriage.hpp"
 #include "oracle/random_problem.hpp"
-#include "robots.hpp"
 #include "zwang/solver/solver.hpp"
 
 namespace zwang::oracle {
@@ -289,30 +286,6 @@ TEST_F(Contradictions, ALowerLevelIsNeverToBlame) {
   EXPECT_NEAR(acceleration(), -0.5, 1e-12);
   expect(0, RowStatus::conflict, -505.0, {});
   expect(1, RowStatus::conflict, 500.0, {0});
-}
-
-/// Two axes that are a small angle apart tell the acceleration across with a precision of rounding / angle,
-/// where V V' of both leaves rounding / angle^2.
-TEST(Levels, AxesThatAreNearlyOneKeepTheDigitsThatTheirAngleLeaves) {
-  const solver::Model model = solver::test::mecanum({.effort = unlimited});
-  for (const double angle : {0.03, 0.01}) {
-    Row along;
-    along.a.linear = solver::Vector3::UnitX();
-    along.b = 1.0;
-    along.lo = -1e6;
-    along.hi = 1e6;
-    Row askew = along;
-    askew.a.linear = {std::cos(angle), std::sin(angle), 0.0};
-    askew.b = std::cos(angle) + 0.5 * std::sin(angle);
-    Row turn = along;
-    turn.a.linear.setZero();
-    turn.a.angular.z() = 1.0;
-    solver::Solver solver(model);
-    solver::Solution s(model);
-    ASSERT_EQ(solver.solve(solver::State(model), {along, askew, turn}, s), solver::Status::ok);
-    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() / 2.0 / angle;
-    EXPECT_NEAR(s.acceleration[0].linear.y(), 0.5, rounding) << angle;
-  }
 }
 
 TEST(TorqueLimits, ALimitAboveBrakesAForceThatTheMotorAloneCouldNotMake) {

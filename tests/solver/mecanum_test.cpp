@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "robots.hpp"
 #include "zwang/solver/solver.hpp"
@@ -115,6 +116,30 @@ TEST_F(MecanumTest, DuplicateRowsShareTheForceEvenly) {
   EXPECT_NEAR(base().linear.x(), 0.5, 1e-10);
   EXPECT_NEAR(solution.rows[0].nu, 0.25 * figures.apparent_mass(), 1e-8);
   EXPECT_NEAR(solution.rows[1].nu, 0.25 * figures.apparent_mass(), 1e-8);
+}
+
+/// Two axes that are a small angle apart tell the acceleration across with a precision of rounding / angle,
+/// where V V' of both leaves rounding / angle^2.
+TEST(MecanumAxes, ThatAreNearlyOneKeepTheDigitsThatTheirAngleLeaves) {
+  const Model model = test::mecanum({.effort = infinity});
+  for (const double angle : {0.03, 0.01}) {
+    Row along;
+    along.a.linear = Vector3::UnitX();
+    along.b = 1.0;
+    along.lo = -1e6;
+    along.hi = 1e6;
+    Row askew = along;
+    askew.a.linear = {std::cos(angle), std::sin(angle), 0.0};
+    askew.b = std::cos(angle) + 0.5 * std::sin(angle);
+    Row turn = along;
+    turn.a.linear.setZero();
+    turn.a.angular.z() = 1.0;
+    Solver solver(model);
+    Solution s(model);
+    ASSERT_EQ(solver.solve(State(model), {along, askew, turn}, s), Status::ok);
+    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() / 2.0 / angle;
+    EXPECT_NEAR(s.acceleration[0].linear.y(), 0.5, rounding) << angle;
+  }
 }
 
 TEST_F(MecanumTest, HeightIsTheGrounds) {

@@ -61,8 +61,8 @@ std::optional<Span> asked_by(const TaskText& task, const PlannedAxis& axis) {
   return std::nullopt;
 }
 
-/// The moment [N m] below which a row that keeps the axis still lets an exit take it to rest while a wall
-/// turns the base. nullopt: no such row, or its force has no bound.
+/// [N m] A row keeps the axis still while a wall turns the base. Below this moment an exit takes the axis to
+/// rest. nullopt: no such row, or its force has no bound.
 std::optional<double> slowed_by(const CheckContext& context, const PlannedTask& plan,
                                 const std::vector<Condition>& conditions, const PlannedAxis& axis,
                                 Probe& probe) {

@@ -180,8 +180,8 @@ class Fitting {
   }
 
   /// F = F_shipped m / m_shipped for a base lighter than the shipped one: as much of its weight, which the
-  /// floor holds. A heavier one keeps the shipped force. A base that its motors F_max accelerate with less
-  /// than a = 1 m/s^2 counts as one of m = F_max / a: the shipped 0.9 m/s^2 x m is 0.9 F_max then.
+  /// floor holds. A heavier one keeps the shipped force. If the motors' F_max accelerates a base with less
+  /// than a = 1 m/s^2, it counts as one of m = F_max / a. The shipped 0.9 m/s^2 x m is 0.9 F_max then.
   double force_of(double shipped) const {
     constexpr double a = 1.0;  // [m/s^2]
     double mass = fit_.mass > 0.0 ? std::min(fit_.mass, shipped_mass) : shipped_mass;
@@ -211,8 +211,8 @@ class Fitting {
     }
   }
 
-  /// [N m] Half of the moment with which the least push squares the base up at last, and the proposed one at
-  /// first: a narrow front has little lever while it is askew.
+  /// [N m] Half of the moment with which the least push squares the base up at last, and the proposed push at
+  /// first. A narrow front has little lever while it is askew.
   double gentle_moment() const {
     const Eigen::Vector2d axle(fit_.axle, 0.0);
     Eigen::Vector2d first{0.0, 0.0};

@@ -8,8 +8,8 @@
 //
 // mu: the wall's friction. M: what holds the heading. If wheels hold the base sideways, the corner slides as
 // the base turns, and the friction is against either turn. Else the push drives the base sideways, to the
-// side of its yaw t. The friction acts to the other side, and turns the base square. The base turns until an
-// edge lies on the wall whose ends lie on both sides of the origin, or until M is more.
+// side of its yaw t. The friction acts to the other side, and turns the base square. The base turns until M
+// is more, or until an edge lies on the wall. The edge's ends lie on both sides of the origin then.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>

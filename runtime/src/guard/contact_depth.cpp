@@ -21,8 +21,8 @@ void ContactDepth::forget() noexcept {
   level_ = -1;
 }
 
-/// What presses on after a hit pressed before it. So the depth and the work are those of the last time that
-/// the force was this weak and grew. They are 0 if the force began with more.
+/// A contact that presses on after a hit pressed before it, too. So the depth and the work are those of the
+/// last time that the force was this weak and grew. They are 0 if the force began with more.
 void ContactDepth::keep_what_pressed_before(int level) noexcept {
   while (level >= 0 && (level > level_ || !held_[static_cast<std::size_t>(level)].is_known)) --level;
   const Held held = level < 0 ? Held{} : held_[static_cast<std::size_t>(level)];

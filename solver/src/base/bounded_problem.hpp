@@ -141,6 +141,7 @@ class BoundedProblem {
   const double* T(int motor) const noexcept { return T_[static_cast<std::size_t>(motor)]; }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
   bool is_one_sided(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].is_limit; }
+  bool is_limit_above(int i, int level) noexcept { return is_one_sided(i) && entry(i).level < level; }
   bool is_soft(int i) noexcept { return entry(i).softness > 0.0; }
   /// A row takes part in a stage while something of it is left free.
   bool takes_part(int i) const noexcept {
@@ -257,7 +258,7 @@ class BoundedProblem {
   void start_sums(int level) noexcept;
   bool sum_counts(int i, int level) const noexcept;
   double sum_of(int i, const Vector& p) noexcept;
-  bool sum_holds(int i, const Vector& p) noexcept;
+  double sum_beyond(int i, const Vector& p) noexcept;
   bool sums_hold(int level, const Vector& p) noexcept;
   void list_sums(int level) noexcept;
   void let_limits_wait() noexcept;

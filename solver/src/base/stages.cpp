@@ -109,7 +109,7 @@ void BoundedProblem::resize_program(int n, int level, int curvature_rows, Posed 
   int kept = static_cast<int>(posed_sums_.size());  // a variable and an equation each
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    if (is_one_sided(i) && entry(i).level < level) ++kept;
+    if (is_limit_above(i, level)) ++kept;
   }
   const bool with_motors = posed == Posed::motors;
   program_.resize(n + (with_motors ? motors_ : 0) + kept, curvature_rows,
@@ -148,7 +148,7 @@ void BoundedProblem::pose_motors(int n) noexcept {
 void BoundedProblem::pose_kept(int n, int level, int variable, int equation) noexcept {
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    if (!is_one_sided(i) || entry(i).level >= level) continue;
+    if (!is_limit_above(i, level)) continue;
     const double sign = entry(i).kind == RowKind::upper ? 1.0 : -1.0;
     const double length = entry(i).reach;
     for (int other = 0; other < n; ++other) {

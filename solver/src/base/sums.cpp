@@ -32,15 +32,18 @@ double BoundedProblem::sum_of(int i, const Vector& p) noexcept {
   return along(i, p) / (e.length * e.length) - e.above;
 }
 
-bool BoundedProblem::sum_holds(int i, const Vector& p) noexcept {
+/// How far a sum is beyond its bounds; 0 where it holds them but for rounding.
+double BoundedProblem::sum_beyond(int i, const Vector& p) noexcept {
   const Entry& e = entry(i);
   const double sum = sum_of(i, p);
-  return sum >= e.lo - sum_rounding * std::abs(e.lo) && sum <= e.hi + sum_rounding * std::abs(e.hi);
+  if (!(sum <= e.hi + sum_rounding * std::abs(e.hi))) return sum - e.hi;
+  if (!(sum >= e.lo - sum_rounding * std::abs(e.lo))) return e.lo - sum;
+  return 0.0;
 }
 
 bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
   return std::all_of(sums_.begin(), sums_.end(),
-                     [&](int i) { return !sum_counts(i, level) || sum_holds(i, p); });
+                     [&](int i) { return !sum_counts(i, level) || sum_beyond(i, p) == 0.0; });
 }
 
 void BoundedProblem::list_sums(int level) noexcept {
@@ -70,9 +73,8 @@ bool BoundedProblem::pose_broken(int level) noexcept {
   int worst = -1;
   double most = 0.0;
   for (const int i : sums_) {
-    if (!sum_counts(i, level) || sum_holds(i, work_)) continue;
-    const double sum = sum_of(i, work_);
-    const double beyond = std::max(sum - entry(i).hi, entry(i).lo - sum) * entry(i).length;
+    if (!sum_counts(i, level)) continue;
+    const double beyond = sum_beyond(i, work_) * entry(i).length;
     if (beyond <= most || std::find(posed_sums_.begin(), posed_sums_.end(), i) != posed_sums_.end()) continue;
     most = beyond;
     worst = i;
@@ -92,15 +94,17 @@ bool BoundedProblem::pose_broken(int level) noexcept {
   return worst >= 0 || kept < waiting;
 }
 
-/// What a row gets is what it wants of this motion, where sums and limits above stand in the way:
+/// Sums and limits above stand in the way of p. A row gets what it wants of another motion:
+///
 ///     felt = p - sum_e y_e E_e
+///
 /// y_e is the multiplier of an equation, E_e its direction.
 void BoundedProblem::take_felt(int n, int level) noexcept {
   copy(work_, felt_);
   int equation = 0;
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    if (!is_one_sided(i) || entry(i).level >= level) continue;
+    if (!is_limit_above(i, level)) continue;
     const double sign = entry(i).kind == RowKind::upper ? 1.0 : -1.0;
     push(i, -sign * program_.multiplier(equation++) * entry(i).inverse_reach, felt_);
   }
