@@ -291,6 +291,7 @@ void read_joints(const urdf::ModelInterface& model, const std::vector<XmlElement
     const auto joint = model.joints_.find(element.find("name")->value);
     if (joint == model.joints_.end() || !done.insert(joint->first).second) continue;
     urdf.joints.push_back(to_joint(*joint->second));
+    urdf.above.emplace(urdf.joints.back().child, urdf.joints.size() - 1);
     urdf.joints.back().span = element.span;
     urdf.joints.back().has_transmission = driven.contains(joint->first);
     const int index = static_cast<int>(&element - elements.data());
@@ -318,7 +319,8 @@ UrdfJoint* Urdf::find_joint(const std::string& joint) {
 }
 
 const UrdfJoint* Urdf::joint_above(const std::string& link) const {
-  return find_in(joints, [&](const UrdfJoint& j) { return j.child == link; });
+  const auto place = above.find(link);
+  return place == above.end() ? nullptr : &joints[place->second];
 }
 
 std::vector<std::string> Urdf::link_names() const {

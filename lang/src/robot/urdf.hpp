@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "robot/above_base.hpp"
@@ -57,6 +58,8 @@ struct Urdf {
   std::string root;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::unordered_map<std::string, std::size_t>
+      above;  ///< by link, the place in `joints` of the one it hangs on
   LeftOut left_out;
   AboveBase above_base;
   std::set<std::string> looped;  ///< links that a simulator's own <joint> ties to another: no tree has loops

@@ -10,15 +10,19 @@
 namespace zwang::lang {
 
 TextIndex::TextIndex(std::string_view text) : text_(text), starts_{0} {
-  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1))
-    starts_.push_back(end + 1);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\n') starts_.push_back(at + 1);
+    if (is_continuation_byte(text[at])) continued_.push_back(at);
+  }
 }
 
 Position TextIndex::position(std::size_t offset) const {
   offset = std::min(offset, text_.size());
   const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
   const std::size_t line = static_cast<std::size_t>(next - starts_.begin()) - 1;
-  const std::size_t column = count_code_points(text_.substr(starts_[line], offset - starts_[line]));
+  const auto from = std::lower_bound(continued_.begin(), continued_.end(), starts_[line]);
+  const auto to = std::lower_bound(from, continued_.end(), offset);
+  const std::size_t column = offset - starts_[line] - static_cast<std::size_t>(to - from);
   return {static_cast<int>(line) + 1, static_cast<int>(column) + 1};
 }
 

@@ -37,7 +37,8 @@ class TextIndex {
 
  private:
   std::string_view text_;
-  std::vector<std::size_t> starts_;
+  std::vector<std::size_t> starts_;     ///< of each line
+  std::vector<std::size_t> continued_;  ///< bytes that go on with a code point
 };
 
 std::size_t count_code_points(std::string_view text);
