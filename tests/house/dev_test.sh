@@ -38,15 +38,16 @@ echo "compiler's own chatter"
 [[ -z \$BUILD_FAILS ]]
 BODY
 stand_in ctest <<BODY
-echo "ctest \$*" >>"$calls"
+echo "ctest in \${TMPDIR-a disk}: \$*" >>"$calls"
 mkdir -p "\$2/Testing/Temporary"
 printf '%s\n' "\$LOG" >"\$2/Testing/Temporary/LastTest.log"
 [[ \$LOG != *FAILED* ]] && exit 0
 printf '7:lang_test.shard_1\n9:house.rooms\n' >"\$2/Testing/Temporary/LastTestsFailed.log"
 exit 8
 BODY
-unset ZWANG_SKIP_SETUP ZWANG_LONG
-export ABSENT='' APT_FAILS='' SUDO_FAILS='' STALE='' BUILD_FAILS='' LOG=''
+stand_in df <<<'printf "Avail\n%s\n" "$FREE"'
+unset ZWANG_SKIP_SETUP ZWANG_LONG TMPDIR
+export FREE=3000000 ABSENT='' APT_FAILS='' SUDO_FAILS='' STALE='' BUILD_FAILS='' LOG=''
 
 failed=0
 complain() {
@@ -134,6 +135,15 @@ has "$err" "compiler's own chatter"
 
 try 'all tests' 0 "$place/dev" test
 has "$called" "-C shards -LE ^single"
+if [[ -w /dev/shm ]] && ! grep -q '^[^ ]* /dev/shm .*noexec' /proc/mounts; then
+  has "$called" 'ctest in /dev/shm/zwang_'
+  folder=${called#*ctest in } folder=${folder%%:*}
+  if [[ -e $folder ]]; then complain "$folder is left"; fi
+fi
+FREE=1000000 try 'tests with little memory' 0 "$place/dev" test
+has "$called" 'ctest in a disk'
+TMPDIR=$place try 'tests with a folder of the user' 0 "$place/dev" test
+has "$called" "ctest in $place:"
 try 'tests by their names' 0 "$place/dev" test -R Tick
 has "$called" '-R Tick'
 lacks "$called" 'shards'
