@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "../many_axes.hpp"
 #include "limits.hpp"
 #include "support.hpp"
 #include "zwang/lang/connection.hpp"
@@ -107,39 +108,16 @@ INSTANTIATE_TEST_SUITE_P(OfText, Limits, testing::ValuesIn(test::limits()),
 /// A base with an arm of so many joints, and as many tasks that each move it along another axis.
 class ManyAxes : public testing::Test {
  protected:
-  static std::string arm(int joints) {
-    std::string text;
-    for (int i = 0; i < joints; ++i) {
-      const std::string n = std::to_string(i);
-      text += "<link name=\"l" + n +
-              "\"><inertial><mass value=\"0.1\"/><inertia ixx=\"1e-3\" ixy=\"0\" ixz=\"0\" iyy=\"1e-3\" "
-              "iyz=\"0\" izz=\"1e-3\"/></inertial></link><joint name=\"j" +
-              n + "\" type=\"revolute\"><parent link=\"" +
-              (i == 0 ? "base_link" : "l" + std::to_string(i - 1)) + "\"/><child link=\"l" + n +
-              "\"/><origin xyz=\"0 0 0.01\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"1\" "
-              "effort=\"5\" velocity=\"1\"/></joint>\n";
-    }
-    return text;
-  }
-  static std::string tasks(int count) {
-    std::string frames = "frames:\n", text = "tasks:\n";
-    for (int i = 0; i < count; ++i) {
-      const std::string n = std::to_string(i);
-      frames += "  f" + n + ": {parent: base_link, at: [0.3 m, " + n + " mm]}\n";
-      text += "  t" + n + ": {constraints: {g: {move: f" + n +
-              ", in: base_link, x: {velocity: 0.1 m/s}}}, timeout: {after: 3 s, goto: " +
-              (i + 1 == count ? std::string("done") : "t" + std::to_string(i + 1)) + "}}\n";
-    }
-    return "zwang: 1\nrobot: robots/made.yaml\n" + frames + "start: t0\n" + text;
-  }
   std::string said(int joints, int count) {
     const std::filesystem::path robots = test::source_dir / folder / "robots";
     std::filesystem::current_path(workplace_.path());
     workplace_.write((folder / "robots/made.yaml").string(),
                      test::replaced(test::slurp(robots / "mini.yaml"), "mini.urdf", "made.urdf"));
     workplace_.write((folder / "robots/made.urdf").string(),
-                     test::replaced(test::slurp(robots / "mini.urdf"), "</robot>", arm(joints) + "</robot>"));
-    workplace_.write((folder / "N608_axes.yaml").string(), tasks(count));
+                     test::replaced(test::slurp(robots / "mini.urdf"), "</robot>",
+                                    zwang::test::long_arm(joints) + "</robot>"));
+    workplace_.write((folder / "N608_axes.yaml").string(),
+                     zwang::test::tasks_along_axes("robots/made.yaml", count));
     return said_about("N608_axes");
   }
   void TearDown() override { std::filesystem::current_path(test::source_dir); }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "../many_axes.hpp"
 #include "../times_count.hpp"
 #include "program.hpp"
 
@@ -125,36 +126,6 @@ std::string chained_urdf() {
   return text + std::string(4 * 1024 * 1024 - text.size() - 9, ' ') + "</robot>\n";
 }
 
-/// A URDF with an arm of so many joints on its base.
-std::string with_arm(std::string urdf, int joints) {
-  const std::string body =
-      "<inertial><mass value=\"0.1\"/><inertia ixx=\"1e-3\" iyy=\"1e-3\" izz=\"1e-3\" ixy=\"0\" ixz=\"0\" "
-      "iyz=\"0\"/></inertial>";
-  const std::string arm = repeated(joints, [&](int i) {
-    return "<link name=\"l" + number(i) + "\">" + body + "</link><joint name=\"j" + number(i) +
-           "\" type=\"revolute\"><origin xyz=\"0 0 0.01\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" "
-           "upper=\"1\" effort=\"5\" velocity=\"1\"/><parent link=\"" +
-           (i == 0 ? std::string("base_link") : "l" + number(i - 1)) + "\"/><child link=\"l" + number(i) +
-           "\"/></joint>\n";
-  });
-  return urdf.insert(urdf.rfind("</robot>"), arm);
-}
-
-/// Tasks that each move the base along an axis of their own.
-std::string tasks_along_axes(int count, const std::string& params = "") {
-  const auto name = [&](int i) { return i == count ? std::string("done") : "t" + number(i); };
-  return "zwang: 1\nrobot: robots/mecanum_base.yaml\nstart: t0\n" + params + "frames:\n" +
-         repeated(count,
-                  [](int i) {
-                    return "  f" + number(i) + ": {parent: base_link, at: [0.3 m, " + number(i) + " mm]}\n";
-                  }) +
-         "tasks:\n" + repeated(count, [&](int i) {
-           return "  " + name(i) + ": {constraints: {g: {move: f" + number(i) +
-                  ", in: base_link, x: {velocity: 0.1 m/s}}}, timeout: {after: 3 s, goto: " + name(i + 1) +
-                  "}}\n";
-         });
-}
-
 struct Load {
   std::string name;
   std::function<std::string()> make;
@@ -230,10 +201,11 @@ TEST_F(Means, ForALongChainOfLinks) {
 
 TEST_F(Means, ForAnArmOfHundredsOfJoints) {
   fs::copy(specs / "robots", folder_ / "robots");
-  std::ostringstream urdf;
-  urdf << std::ifstream(specs / "robots/mecanum_base.urdf").rdbuf();
-  write("robots/mecanum_base.urdf", with_arm(urdf.str(), 200));
-  expect_modest({"validate", write("task.yaml", tasks_along_axes(250)).string(), "--notes"});
+  std::string urdf = test::read(specs / "robots/mecanum_base.urdf");
+  urdf.insert(urdf.rfind("</robot>"), test::long_arm(200));
+  write("robots/mecanum_base.urdf", urdf);
+  const std::string task = test::tasks_along_axes("robots/mecanum_base.yaml", 250);
+  expect_modest({"validate", write("task.yaml", task).string(), "--notes"});
 }
 
 TEST_F(Means, ForAScenarioOfManyCells) {
@@ -241,7 +213,8 @@ TEST_F(Means, ForAScenarioOfManyCells) {
   const auto of_each = [](const std::string& before, const std::string& behind) {
     return repeated(9, [&](int i) { return before + number(i) + behind; });
   };
-  write("task.yaml", tasks_along_axes(1, "params:\n" + of_each("  p", ": 1 m\n")));
+  write("task.yaml",
+        test::tasks_along_axes("robots/mecanum_base.yaml", 1, "params:\n" + of_each("  p", ": 1 m\n")));
   const std::string matrix = "matrix:\n" + of_each("  params.p", ": [1 m, 2 m]\n");
   expect_modest({"validate", write("scenario.yaml",
                                    "zwang_scenario: 1\ntask: task.yaml\nexpect: [{outcome: done}]\n" + matrix)

@@ -58,8 +58,7 @@ struct Urdf {
   std::string root;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
-  std::unordered_map<std::string, std::size_t>
-      above;  ///< by link, the place in `joints` of the one it hangs on
+  std::unordered_map<std::string, std::size_t> above;  ///< by link: in `joints`, the one that carries it
   LeftOut left_out;
   AboveBase above_base;
   std::set<std::string> looped;  ///< links that a simulator's own <joint> ties to another: no tree has loops
