@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 
 #include "constants.hpp"
 #include "guard/runaway_watch.hpp"
+#include "guard/wheel_brake.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -151,6 +153,85 @@ TEST(ProtectiveStop, BrakesAgainWithAMotorThatIsTakenForReversed) {
     EXPECT_LE(obeyed, 1) << one.robot;
     if (obeyed > 0) {
       EXPECT_NE(runner.because().find("obeyed"), std::string::npos) << runner.because();
+    }
+  }
+}
+
+/// Somebody pushes the base for 0.6 s of each second, from 0.1 s or from 3 s after the onset of its stop.
+struct Pushed {
+  double fastest = 0.0;  ///< [m/s] from 3 s after the onset
+  bool obeyed = false;
+};
+
+Pushed push_in_the_stop(const char* robot, const lang::Fault* fault, double force, double way, double from) {
+  const lang::Program program = zwang::test::shipped_program("laws/circle.yaml", robot);
+  ScenePlantOptions options;
+  if (fault != nullptr) options.faults.push_back(*fault);
+  ScenePlant plant(program, options);
+  Runner runner(program, {.period = period});
+  Sensed sensed(program.robot.model, program.signals.size());
+  Pushed pushed;
+  for (double now = 0.0; now < 12.0; now = plant.truth().time) {
+    const bool is_pushed = now > 3.0 + from && std::fmod(now, 1.0) < 0.6;
+    plant.set_push({{0.0, 0.0}, (is_pushed ? force : 0.0) * Eigen::Vector2d(std::cos(way), std::sin(way))});
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    if (now >= 3.0 && fault == nullptr) {
+      runner.guard().stop(EventCode::requested, 0, 0.0);
+    } else if (now >= 3.0) {
+      const int joint = *program.robot.model.find_joint(fault->joint);
+      runner.guard().stop(EventCode::torque_flipped, event_signal::of_joint(joint, event_signal::tau), 0.1);
+    }
+    EXPECT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    if (now > 6.0) pushed.fastest = std::max(pushed.fastest, plant.truth().velocity.head<2>().norm());
+  }
+  pushed.obeyed = runner.guard().motor_obeyed();
+  return pushed;
+}
+
+/// Each push makes the base faster, whatever the torque of the accused motor is. A motor that gives nothing,
+/// or the reverse, is not said to obey for that.
+TEST(ProtectiveStop, TakesNoPushForAMotorThatObeys) {
+  using enum lang::FaultKind;
+  struct Case {
+    const char *robot, *wheel;
+    lang::FaultKind fault;
+    double force;  ///< [N] that the brakes hold
+  };
+  const Case cases[] = {{"mecanum", "front_left_wheel", torque_lost, 40.0},
+                        {"mecanum", "rear_left_wheel", torque_flipped, 40.0},
+                        {"omni", "front_left_wheel", torque_lost, 10.0},
+                        {"omni", "rear_wheel", torque_flipped, 10.0},
+                        {"diff", "right_wheel", torque_lost, 40.0},
+                        {"diff", "left_wheel", torque_flipped, 40.0}};
+  for (const Case& one : cases) {
+    const lang::Fault fault = {.kind = one.fault, .at = 3.0, .joint = one.wheel};
+    for (const double way : {0.0, 0.5 * std::numbers::pi, std::numbers::pi}) {
+      for (const double from : {0.1, 3.0}) {
+        const Pushed pushed = push_in_the_stop(one.robot, &fault, one.force, way, from);
+        std::printf("%s, %s %s, pushed to %3.0f deg from %.1f s on: %.4f m/s\n", one.robot, one.wheel,
+                    one.fault == torque_lost ? "lost" : "reversed", way * 180.0 / std::numbers::pi, from,
+                    pushed.fastest);
+        EXPECT_FALSE(pushed.obeyed) << one.robot << " " << one.wheel << " " << way << " " << from;
+      }
+    }
+  }
+}
+
+/// A push looks like a motor that turns the wrong way, whichever motor the brake leaves out. With all of them
+/// left out it can only be a push: they brake again. A search tries N + 2 choices for at most two looks each.
+/// Without any brake for so long the push P of a mass m makes P (N + 2) 40 ms / m.
+TEST(ProtectiveStop, BrakesABaseThatIsPushedAgainAndAgain) {
+  struct Case {
+    const char* robot;
+    double wheels, force, mass;  ///< [N] below the 80 N of the brakes; [kg]
+  };
+  for (const Case& one : {Case{"diff", 2, 60.0, 68.0}, Case{"mecanum", 4, 70.0, 56.9}}) {
+    for (const double way : {0.0, 0.5 * std::numbers::pi, std::numbers::pi}) {
+      const double fastest = push_in_the_stop(one.robot, nullptr, one.force, way, 3.0).fastest;
+      std::printf("%s, pushed to %3.0f deg with %.0f N: %.4f m/s\n", one.robot,
+                  way * 180.0 / std::numbers::pi, one.force, fastest);
+      EXPECT_LT(fastest, one.force * (one.wheels + 2.0) * 2.0 * WheelBrake::look_every / one.mass)
+          << one.robot;
     }
   }
 }

@@ -41,21 +41,30 @@ void WheelBrake::begin(int suspect, double believed) noexcept {
   may_be_mistaken_ = believed_ > 0.0 && std::isfinite(believed_);
   slope_is_due_ = left_out_ < 0;
   slope_time_ = slope_for_ = 0.0;
-  sense_ = 0.0;
   has_obeyed_ = false;
-  may_turn_ = true;
-  even_looks_ = 0;
-  tried_ = 0;
+  first_left_out_ = left_out_;
+  first_sense_ = 0.0;
+  begin_anew();
   ticks_ = ticks_between_looks_;  // the first look is what the others compare with
   last_sum_ = least_sum_ = std::numeric_limits<double>::infinity();
 }
 
 void WheelBrake::begin_turned_around() noexcept {
   begin(-1, 0.0);
-  left_out_ = all();
-  is_suspected_only_ = false;
-  sense_ = -1.0;
+  first_left_out_ = all();
+  first_sense_ = -1.0;
+  begin_anew();
   slope_is_due_ = false;
+}
+
+/// With the motors that the stop's reason leaves out, as far as they have not obeyed since.
+void WheelBrake::begin_anew() noexcept {
+  left_out_ = has_obeyed_ ? -1 : first_left_out_;
+  sense_ = first_sense_;
+  may_turn_ = true;
+  looks_turned_ = drives_ = 0;
+  even_looks_ = 0;
+  tried_ = 0;
 }
 
 /// From the last sample.
@@ -83,13 +92,16 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   const auto count = static_cast<int>(wheels_.size());
   if (sum > growth * least_sum_ && sum > count * slow * slow) {
     least_sum_ = sum;
+    if (sense_ == 0.0) drives_ = 0;
     if (sense_ != 0.0 && is_suspected_only_) {
       brake_with_the_suspect();
-    } else if (sense_ != 0.0 && may_be_mistaken_) {
-      brake_with_the_accused();
+    } else if (sense_ != 0.0 && may_be_mistaken_ && left_out_ == first_left_out_) {
+      take_a_drive(std::sqrt(sum));
     } else if (sense_ != 0.0) {
       sense_ = 0.0;
       may_turn_ = false;
+    } else if (left_out_ == all()) {
+      begin_anew();
     } else if (sum > count * believed_ * believed_) {
       tried_ == 0 ? leave_out_the_fastest(qd) : leave_out_the_next();
     }
@@ -98,10 +110,17 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   least_sum_ = std::min(sum, forgotten * least_sum_);
   if (sum < count * slow * slow) tried_ = 0;
   const bool rolls_on = !is_on_slope() && sum > evenly * last_sum_ && sum > count * rest * rest;
+  if (!rolls_on || even_looks_ == 0) even_from_ = std::sqrt(last_sum_);
   even_looks_ = rolls_on ? even_looks_ + 1 : 0;
   last_sum_ = sum;
+  ++looks_turned_;
   if (even_looks_ < even_looks || left_out_ < 0) return;
-  if (may_turn_) sense_ = -1.0;
+  if (may_turn_ && sense_ == 0.0) {
+    sense_ = -1.0;
+    looks_turned_ = 1;  // at the next look
+    turned_at_ = std::sqrt(sum);
+    gain_before_ = (turned_at_ - even_from_) / even_looks_;
+  }
   if (sense_ == 0.0 && left_out_ == all() && !has_tried_all()) leave_out_the_next();
 }
 
@@ -111,6 +130,16 @@ void WheelBrake::brake_with_the_suspect() noexcept {
   left_out_ = -1;
   sense_ = 0.0;
   even_looks_ = 0;
+}
+
+/// The wheels got faster under the reversed torque. By a push they do so at any time, and without that
+/// torque, too.
+void WheelBrake::take_a_drive(double speed) noexcept {
+  const double gain = (speed - turned_at_) / looks_turned_;
+  drives_ = gain > most_by_a_push * gain_before_ ? drives_ + 1 : 0;
+  sense_ = 0.0;
+  even_looks_ = 0;
+  if (drives_ == drives) brake_with_the_accused();
 }
 
 /// A motor that was taken for lost or reversed brakes likewise. The growth can have another source, as a wall

@@ -12,12 +12,14 @@ namespace zwang::runtime {
 /// as the motor obeys its command. A motor that does the opposite drives the base instead, faster than the
 /// others brake it. Of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
 /// is left out. If the wheels get faster under the brake, the one with the largest gain is left out instead.
-/// If that does not end the gain, each wheel in turn is left out, and at last all of them. Few wheels cannot
-/// brake every motion without the one that is left out. If they roll on evenly, its torque is reversed. If
-/// the wheels then get faster, its motor obeys. A motor that was only under suspicion brakes again. So does a
+/// If that does not end the gain, each wheel in turn is left out, and at last all of them. If they get faster
+/// even then, somebody pushes: no motor gives anything. The brake then begins anew. Few wheels cannot brake
+/// every motion without the one that is left out. If they roll on evenly, its torque is reversed. If the
+/// wheels then get faster, its motor obeys. A motor that was only under suspicion brakes again. So does a
 /// motor that was taken for lost or reversed, a tenth as stiffly: a mass that the model lacks looks like one.
-/// Any other motor stays left out, without torque. That also brakes a base whose motors, or encoders, are all
-/// wired the wrong way round.
+/// It must do so twice, each time twice as fast as without it: a push does not wait for that. Any other motor
+/// stays left out, without torque. That also brakes a base whose motors, or encoders, are all wired the wrong
+/// way round.
 ///
 /// While a motor is only under suspicion, the brake is a tenth as stiff. Another motor that drives the base
 /// then needs at least some 40 ms to double a rate. The brake sees that before that motor presses.
@@ -44,7 +46,7 @@ class WheelBrake {
   /// All motors, or all encoders, are the wrong way round.
   void begin_turned_around() noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
-  /// Since it began: the motor that the stop is about was told the reverse, and drove the base. It obeys.
+  /// Since it began: the motor that the stop is about was told the reverse, and drove the base each time.
   bool has_obeyed() const noexcept { return has_obeyed_; }
   /// Takes a tick with a trusted sample. The sample before it is the one that counts. When encoders die,
   /// their rates may show it a sample before their positions stay.
@@ -60,8 +62,11 @@ class WheelBrake {
   static constexpr double forgotten = 1.01;  ///< from the least it was; from look to look that counts less
   static constexpr double evenly = 0.95;     ///< of the same sum: less is braking
   static constexpr int even_looks = 3;       ///< before a motor is turned around
-  static constexpr double rest = 0.005;      ///< [m/s] root mean square at the rims
-  static constexpr double slow = 0.02;       ///< [m/s] root mean square at the rims: as good as rest
+  static constexpr int drives = 2;           ///< of a motor that obeys
+  static constexpr double most_by_a_push =
+      2.0;                               ///< what it gains with that torque, of what it gained without
+  static constexpr double rest = 0.005;  ///< [m/s] root mean square at the rims
+  static constexpr double slow = 0.02;   ///< [m/s] root mean square at the rims: as good as rest
   static constexpr double fast =
       0.3;  ///< [m/s] root mean square at the rims: faster than one motor drives a base
 
@@ -80,6 +85,8 @@ class WheelBrake {
   };
   static PlanarInertia planar_inertia(const solver::Model& model);
   void look(const Eigen::VectorXd& qd) noexcept;
+  void begin_anew() noexcept;
+  void take_a_drive(double speed) noexcept;
   void brake_with_the_suspect() noexcept;
   void brake_with_the_accused() noexcept;
   void leave_out_the_fastest(const Eigen::VectorXd& qd) noexcept;
@@ -111,9 +118,16 @@ class WheelBrake {
   double blind_share_ = 1.0;   ///< of the torques: P / T is no more than the deceleration of the stop
   int ticks_between_looks_;
   int ticks_ = 0;
-  int left_out_ = -1;   ///< index into `wheels_`; -1: none, as many as there are: all
-  double sense_ = 0.0;  ///< what its torque is multiplied with: 0, or -1 when it was turned around
+  int left_out_ = -1;         ///< index into `wheels_`; -1: none, as many as there are: all
+  double sense_ = 0.0;        ///< what its torque is multiplied with: 0, or -1 when it was turned around
+  int first_left_out_ = -1;   ///< as the stop's reason has it
+  double first_sense_ = 0.0;  ///< the same
   bool may_turn_ = true;
+  int looks_turned_ = 0;      ///< since its torque was turned around
+  double even_from_ = 0.0;    ///< [m/s] the root of the sum before the even looks
+  double turned_at_ = 0.0;    ///< [m/s] the same as its torque was turned around
+  double gain_before_ = 0.0;  ///< [m/s] of it from look to look, until then
+  int drives_ = 0;            ///< that came soon after it, one after the other
   int even_looks_ = 0;
   int tried_ = 0;          ///< choices of a motor that is left out
   double believed_ = 0.0;  ///< [m/s] beyond it another motor is sought
