@@ -3,15 +3,31 @@
 #include <sched.h>
 #include <sys/mman.h>
 
+#include <cerrno>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
+#include <string>
 
 namespace zwang::connect {
+
+namespace {
+
+bool is_first_in_line(const std::filesystem::path& thread, const sched_param& parameters) {
+  const pid_t number = static_cast<pid_t>(std::stol(thread.filename().string()));
+  return sched_setscheduler(number, SCHED_FIFO, &parameters) == 0 || errno == ESRCH;  // it has ended
+}
+
+}  // namespace
 
 void become_punctual(int priority) {
   if (priority == 0) return;
   const sched_param parameters{priority};
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0 && sched_setscheduler(0, SCHED_FIFO, &parameters) == 0) return;
+  bool is_punctual = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    is_punctual = is_punctual && is_first_in_line(thread.path(), parameters);
+  }
+  if (is_punctual) return;
   std::cerr
       << "zwang: no real-time priority: that takes CAP_SYS_NICE and CAP_IPC_LOCK, or limits of rtprio and "
          "memlock\n";

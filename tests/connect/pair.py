@@ -107,7 +107,10 @@ class Pair:
     def end(self, within=40):
         """The exit code of `drive`, and what both have said."""
         code = self.drive.wait(within)
-        self.simulate.wait(20)
+        try:
+            self.simulate.wait(20)
+        except subprocess.TimeoutExpired:
+            expect(False, f"the simulated robot goes on; drive ended with {code}", self.text("drive"), self.text("simulate"))
         return code, self.text("drive"), self.text("simulate")
 
     @classmethod
