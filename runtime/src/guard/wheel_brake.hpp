@@ -63,10 +63,9 @@ class WheelBrake {
   static constexpr double evenly = 0.95;     ///< of the same sum: less is braking
   static constexpr int even_looks = 3;       ///< before a motor is turned around
   static constexpr int drives = 2;           ///< of a motor that obeys
-  static constexpr double most_by_a_push =
-      2.0;                               ///< what it gains with that torque, of what it gained without
-  static constexpr double rest = 0.005;  ///< [m/s] root mean square at the rims
-  static constexpr double slow = 0.02;   ///< [m/s] root mean square at the rims: as good as rest
+  static constexpr double most_by_a_push = 2.0;  ///< times the gain without that torque
+  static constexpr double rest = 0.005;          ///< [m/s] root mean square at the rims
+  static constexpr double slow = 0.02;           ///< [m/s] root mean square at the rims: as good as rest
   static constexpr double fast =
       0.3;  ///< [m/s] root mean square at the rims: faster than one motor drives a base
 
@@ -127,7 +126,7 @@ class WheelBrake {
   double even_from_ = 0.0;    ///< [m/s] the root of the sum before the even looks
   double turned_at_ = 0.0;    ///< [m/s] the same as its torque was turned around
   double gain_before_ = 0.0;  ///< [m/s] of it from look to look, until then
-  int drives_ = 0;            ///< that came soon after it, one after the other
+  int drives_ = 0;            ///< by it, one after the other, that no push explains
   int even_looks_ = 0;
   int tried_ = 0;          ///< choices of a motor that is left out
   double believed_ = 0.0;  ///< [m/s] beyond it another motor is sought
