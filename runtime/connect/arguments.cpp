@@ -13,7 +13,7 @@ namespace zwang::connect {
 
 namespace {
 
-bool is_first_in_line(const std::filesystem::path& thread, const sched_param& parameters) {
+bool put_first_in_line(const std::filesystem::path& thread, const sched_param& parameters) {
   const pid_t number = static_cast<pid_t>(std::stol(thread.filename().string()));
   return sched_setscheduler(number, SCHED_FIFO, &parameters) == 0 || errno == ESRCH;  // it has ended
 }
@@ -25,7 +25,7 @@ void become_punctual(int priority) {
   const sched_param parameters{priority};
   bool is_punctual = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
-    is_punctual = is_punctual && is_first_in_line(thread.path(), parameters);
+    is_punctual = is_punctual && put_first_in_line(thread.path(), parameters);
   }
   if (is_punctual) return;
   std::cerr

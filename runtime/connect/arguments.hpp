@@ -39,8 +39,8 @@ struct Loaded {
 /// Prints what is wrong; nothing if that is an error.
 std::optional<Loaded> load(const Arguments& arguments, lang::Diagnostics& diagnostics);
 
-/// SCHED_FIFO for all threads, and for those that they start, memory locked; says so where it may not. 0:
-/// nothing.
+/// SCHED_FIFO for all threads and those that they start, memory locked; says so where it may not. With 0
+/// it does nothing.
 void become_punctual(int priority);
 
 }  // namespace zwang::connect

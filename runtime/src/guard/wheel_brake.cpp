@@ -84,6 +84,7 @@ double WheelBrake::allowed_rate(const DrivenWheel& wheel, double rate) const noe
 }
 
 void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
+  ++looks_turned_;
   double sum = 0.0;
   for (const DrivenWheel& wheel : wheels_) {
     const double rim = wheel.radius * qd(wheel.joint);
@@ -113,11 +114,10 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   if (!rolls_on || even_looks_ == 0) even_from_ = std::sqrt(last_sum_);
   even_looks_ = rolls_on ? even_looks_ + 1 : 0;
   last_sum_ = sum;
-  ++looks_turned_;
   if (even_looks_ < even_looks || left_out_ < 0) return;
   if (may_turn_ && sense_ == 0.0) {
     sense_ = -1.0;
-    looks_turned_ = 1;  // at the next look
+    looks_turned_ = 0;
     turned_at_ = std::sqrt(sum);
     gain_before_ = (turned_at_ - even_from_) / even_looks_;
   }
