@@ -38,13 +38,14 @@ function(zwang_quick_under_sanitizers target)
     target_compile_options(${target} PRIVATE -O0)
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "EXECUTABLE")
-      zwang_rooms_first(${target})
+      zwang_optimised_first(${target})
     endif()
   endif()
 endfunction()
 
-# The rooms' archives that a target links, the one that is optimised most first.
-function(zwang_rooms_behind result target)
+# The archives that a target links and that are optimised, the one that is optimised most first: the rooms, and the oracle and
+# the bases of the tests.
+function(zwang_optimised_behind result target)
   set(pending ${target})
   set(seen "")
   while(pending)
@@ -65,23 +66,23 @@ function(zwang_rooms_behind result target)
       endif()
     endforeach()
   endwhile()
-  set(rooms "")
-  foreach(room zwang_solver zwang_simulation zwang_runtime zwang_lang)
-    if(room IN_LIST seen)
-      list(APPEND rooms ${room})
+  set(optimised "")
+  foreach(library zwang_solver zwang_simulation zwang_runtime zwang_lang zwang_oracle zwang_dense_dynamics zwang_test_robots)
+    if(library IN_LIST seen)
+      list(APPEND optimised ${library})
     endif()
   endforeach()
-  set(${result} ${rooms} PARENT_SCOPE)
+  set(${result} ${optimised} PARENT_SCOPE)
 endfunction()
 
-# zwang_rooms_first(<target>): of an inline function that several objects have, the linker keeps the copy that it meets first.
-# A target compiled with -O0 would lend its copies to the rooms: the tests of lang ran four times as long. So the linker meets
-# the whole archives of the rooms before the target's own objects. Call it after target_link_libraries.
-function(zwang_rooms_first target)
-  zwang_rooms_behind(rooms ${target})
-  if(rooms)
-    list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_FILE:\\1>")
-    list(JOIN rooms " " archives)
+# zwang_optimised_first(<target>): of an inline function that several objects have, the linker keeps the copy that it meets
+# first. A target compiled with -O0 would lend its copies to what it links: the tests of lang ran four times as long, the
+# oracle six times. So the linker meets whole archives before the target's own objects. Call it after target_link_libraries.
+function(zwang_optimised_first target)
+  zwang_optimised_behind(optimised ${target})
+  if(optimised)
+    list(TRANSFORM optimised REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+    list(JOIN optimised " " archives)
     target_link_options(${target} PRIVATE "SHELL:-Wl,--whole-archive ${archives} -Wl,--no-whole-archive")
   endif()
 endfunction()
