@@ -38,7 +38,8 @@ void take_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell, R
 std::size_t number_of_cell(const lang::Study& study, const std::optional<std::string>& text) {
   std::size_t number = 0;
   const char* end = text ? text->data() + text->size() : nullptr;
-  const bool is_number = text && std::from_chars(text->data(), end, number).ptr == end && !text->empty();
+  const auto read = text ? std::from_chars(text->data(), end, number) : std::from_chars_result{};
+  const bool is_number = text && !text->empty() && read.ptr == end && read.ec == std::errc();
   if (!is_number || number >= lang::most_cells_of_a_study)
     throw Impossible(study.path + ": a study of " + count(study.runs, "cell") +
                      "; choose one by its number, as --cell 0");

@@ -44,7 +44,8 @@ Shard shard_of(const std::optional<std::string>& text) {
   std::istringstream in(*text);
   std::size_t number = 0, of = 0;
   char slash = 0;
-  const bool is_read = static_cast<bool>(in >> number >> slash >> of) && in.peek() == EOF && slash == '/';
+  const bool is_read = text->find('-') == std::string::npos &&  // a stream makes 2^64 - 1 of -1
+                       static_cast<bool>(in >> number >> slash >> of) && in.peek() == EOF && slash == '/';
   if (!is_read || number < 1 || number > of)
     throw Impossible("--shard " + *text + ": write the number of the part and how many there are, as 3/64");
   return {number - 1, of};
@@ -175,12 +176,24 @@ std::string results_path(const SweepArguments& arguments, const Shard& shard) {
   return stem + part + ".db";
 }
 
-/// Files that are written when all cells have run: a folder that is missing is told before.
-void require_places(const SweepArguments& arguments) {
+std::string page_path(const std::string& results) {
+  return fs::path(results).replace_extension(".html").string();
+}
+
+/// Files that are written when all cells have run: a folder that is missing is told before, and a file that
+/// would be lost.
+void require_places(const SweepArguments& arguments, const std::string& results) {
+  if (arguments.report && page_path(results) == results)
+    throw Impossible(results + ": the page has this name; name another file with --out");
   if (!arguments.junit) return;
   const fs::path folder = fs::path(*arguments.junit).parent_path();
   if (!folder.empty() && !fs::is_directory(folder))
     throw Impossible(*arguments.junit + ": there is no folder " + folder.string());
+  const auto place = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
+  for (const std::string& kept : {results, page_path(results), arguments.study}) {
+    if (place(*arguments.junit) == place(kept))
+      throw Impossible(kept + ": --junit would be written over it; name another file");
+  }
 }
 
 /// The files that `--merge` reads exist, and `--fresh` does not delete them.
@@ -239,8 +252,7 @@ int tell_study(const SweepArguments& arguments, const lang::Study& study,
     if (report.runs < wanted) print(missing_text(wanted - report.runs, wanted, !arguments.merged.empty()));
   }
   if (arguments.report) {
-    const std::string page =
-        write_sweep_page(study, report, records, command, fs::path(path).replace_extension(".html").string());
+    const std::string page = write_sweep_page(study, report, records, command, page_path(path));
     if (arguments.format == Format::human) print("page   " + page + "\n");
   }
   if (arguments.junit) write_file(*arguments.junit, study::junit_report(study, report));
@@ -248,16 +260,29 @@ int tell_study(const SweepArguments& arguments, const lang::Study& study,
   return report.runs < wanted ? exit_impossible : exit_good;
 }
 
+/// `--runs` says how many runs there are: nothing is told of the number that the study has.
+lang::Diagnostics without_number_of_runs(const lang::Diagnostics& diagnostics) {
+  lang::Diagnostics others;
+  for (const lang::Source& source : diagnostics.sources()) others.add_source(source);
+  for (const lang::Diagnostic& d : diagnostics.all()) {
+    if (d.code != "W934") others.add(d);
+  }
+  return others;
+}
+
 int sweep_among(const SweepArguments& arguments, study::Messages* others) {
-  if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
-  require_places(arguments);
   const Shard shard = shard_of(arguments.shard);
+  const std::string path = results_path(arguments, shard);
+  require_places(arguments, path);
+  if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   lang::Diagnostics diagnostics;
   const std::optional<lang::Study> study = lang::load_study(arguments.study, diagnostics);
-  // How many runs there are is said here.
   const bool is_first = !others || others->rank() == 0;
-  if (is_first && (!study || !arguments.runs)) print_error(rendered(diagnostics));
-  if (!study) return exit_bad;
+  if (is_first) print_error(rendered(arguments.runs ? without_number_of_runs(diagnostics) : diagnostics));
+  if (!study) {
+    if (others) study::end_without_study(*others);
+    return exit_bad;
+  }
   const std::string identity = fingerprint_of(*study);
   const study::WorkSettings settings = settings_of(arguments, others != nullptr);
   study::WorkCalls calls = calls_of(*study);
@@ -266,20 +291,23 @@ int sweep_among(const SweepArguments& arguments, study::Messages* others) {
     return exit_good;
   }
   const std::size_t runs = arguments.runs.value_or(study->runs);
-  const std::string path = results_path(arguments, shard);
   require_others(arguments, path);
   study::SoleWriter writer(path);
+  const study::StudyIdentity of_results = study::identity_of(*study, identity);
   if (arguments.fresh) {
-    study::ResultStore::require_results(path);
+    study::ResultStore::require_results_of(of_results, path);
     writer.begin_anew();
   }
-  study::ResultStore store(path, study::identity_of(*study, identity));
+  study::ResultStore store(path, of_results);
   for (const std::string& other : arguments.merged) store.merge(other);
   const std::vector<std::size_t> cells =
-      arguments.merged.empty() ? cells_to_run(runs, shard, store.cells()) : std::vector<std::size_t>();
+      arguments.merged.empty() ? cells_to_run(runs, shard, store.ended_cells()) : std::vector<std::size_t>();
   const std::size_t wanted = (runs + shard.of - 1 - shard.first) / shard.of;
-  SweepProgress progress(*study, store.records(runs), wanted, arguments.format == Format::human,
-                         others != nullptr);
+  const auto kept = [&] { return store.records(runs, shard.first, shard.of); };
+  std::vector<study::CellRecord> before = kept();
+  std::erase_if(before,
+                [&](const study::CellRecord& r) { return std::ranges::binary_search(cells, r.cell); });
+  SweepProgress progress(*study, before, wanted, arguments.format == Format::human, others != nullptr);
   calls.done = [&](const study::CellRecord& record) {
     store.put(record);
     progress.count(record);
@@ -296,7 +324,7 @@ int sweep_among(const SweepArguments& arguments, study::Messages* others) {
   store.keep();
   progress.end();
 
-  return tell_study(arguments, *study, store.records(runs), wanted, path);
+  return tell_study(arguments, *study, kept(), wanted, path);
 }
 
 }  // namespace

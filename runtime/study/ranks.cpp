@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const no_more = "no more";
+const char* const no_study = "no study";  // in the place of its identity
 /// While cells run there is no hurry: they take a tenth of a second and more.
 constexpr double busy_look = 5e-4, idle_look = 0.1;  // [s]
 
@@ -78,6 +79,21 @@ void run_with_ranks(const std::vector<std::size_t>& cells, const WorkSettings& s
     }
     for (auto message = messages.receive(busy_look); message; message = messages.receive(0.0)) take(*message);
     calls.wait();
+  }
+}
+
+void end_without_study(Messages& messages) {
+  if (messages.rank() > 0) {
+    messages.send(0, no_study);
+    while (!messages.receive(idle_look)) {
+    }
+    return;
+  }
+  for (int listening = messages.size() - 1; listening > 0;) {
+    const auto message = messages.receive(idle_look);
+    if (!message) continue;
+    messages.send(message->from, no_more);
+    --listening;
   }
 }
 

@@ -3,9 +3,11 @@
 
 #include <sqlite3.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 
 namespace zwang::study {
 
@@ -119,9 +121,12 @@ CellRecord taken_from(Statement& row, std::size_t draws, std::size_t claims) {
   return record;
 }
 
-/// The fingerprint of the study whose results the file holds; empty: it holds nothing yet. Throws where it
-/// holds something else.
-std::string fingerprint_in(sqlite3* handle, const std::string& path) {
+const char* const name_another = "name another one with --out";
+const char* const leave_it_out = "leave it out of --merge";
+
+/// The fingerprint of the study whose results the file holds; empty: it holds nothing yet. Throws, with the
+/// advice, where it holds something else.
+std::string fingerprint_in(sqlite3* handle, const std::string& path, const std::string& advice) {
   std::string reason = path + ": other tables";
   try {
     Statement tables(handle, path, "SELECT count(*) FROM sqlite_master");
@@ -132,14 +137,34 @@ std::string fingerprint_in(sqlite3* handle, const std::string& path) {
   } catch (const std::runtime_error& error) {
     reason = error.what();
   }
-  throw std::runtime_error(reason + ". This is no file of results: name another one with --out");
+  throw std::runtime_error(reason + ". This is no file of results: " + advice);
 }
+
+/// A file that is only read. Without a log beside it no process writes it, and SQLite need not write one
+/// itself: it may be another's, or on a disk that cannot be written.
+std::string uri_of(const std::string& path) {
+  std::string uri = "file:";
+  for (const char c : path) {
+    constexpr std::string_view special = "%?#";
+    const std::size_t which = special.find(c);
+    uri += which == std::string_view::npos ? std::string(1, c) : std::array{"%25", "%3f", "%23"}[which];
+  }
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path + "-wal", none);
+  return none || size == 0 ? uri + "?immutable=1" : uri;
+}
+
+/// Their real time alone or the memory of the machine may have ended them: another look may end otherwise.
+constexpr const char* ended_by_the_machine = "outcome IN ('hung', 'crashed')";
 
 }  // namespace
 
 struct ResultStore::Database {
-  explicit Database(const std::string& file) : path(file) {
-    if (sqlite3_open(path.c_str(), &handle) == SQLITE_OK) return;
+  explicit Database(const std::string& file, bool is_written = true) : path(file) {
+    const int flags =
+        is_written ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
+    const std::string name = is_written ? path : uri_of(path);
+    if (sqlite3_open_v2(name.c_str(), &handle, flags, nullptr) == SQLITE_OK) return;
     const std::string why = handle != nullptr ? sqlite3_errmsg(handle) : "out of memory";
     sqlite3_close(handle);
     throw std::runtime_error(path + ": " + why);
@@ -165,8 +190,23 @@ struct ResultStore::Database {
   std::size_t pending = 0;          ///< cells of the open transaction
 };
 
+namespace {
+
+/// In the order of the cells.
+std::vector<CellRecord> records_that(sqlite3* handle, const std::string& path, const StudyIdentity& identity,
+                                     const std::string& condition) {
+  Statement rows(handle, path, "SELECT * FROM cells WHERE " + condition + " ORDER BY cell");
+  std::vector<CellRecord> records;
+  while (rows.step()) records.push_back(taken_from(rows, identity.draws.size(), identity.claims.size()));
+  return records;
+}
+
+}  // namespace
+
 StudyIdentity identity_of(const lang::Study& study, const std::string& fingerprint) {
-  StudyIdentity identity{fingerprint, {}, {}, study.claims};
+  std::error_code absent;
+  StudyIdentity identity{
+      fingerprint, std::filesystem::weakly_canonical(study.path, absent).string(), {}, {}, study.claims};
   for (const lang::Draw& draw : study.draws) {
     identity.draws.push_back("draw." + draw.name);
     identity.units.push_back(draw.unit);
@@ -179,7 +219,7 @@ ResultStore::ResultStore(const std::string& path, const StudyIdentity& identity)
   sqlite3* handle = database_->handle;
   constexpr int patience = 10'000;  // [ms]
   sqlite3_busy_timeout(handle, patience);
-  const std::string found = fingerprint_in(handle, path);
+  const std::string found = fingerprint_in(handle, path, name_another);
   if (!found.empty() && found != identity.fingerprint)
     throw std::runtime_error(path +
                              ": holds the results of other files or of another version of zwang; "
@@ -218,15 +258,22 @@ void ResultStore::make_tables() {
     claim.give(std::optional<double>(identity.claims[i].confidence));
     claim.step();
   }
-  Statement said(handle, database_->path, "INSERT INTO study VALUES ('fingerprint', ?)");
+  Statement said(handle, database_->path, "INSERT INTO study VALUES ('fingerprint', ?), ('path', ?)");
   said.give(identity.fingerprint);
+  said.give(identity.path);
   said.step();
   database_->run("COMMIT");
 }
 
-void ResultStore::require_results(const std::string& path) {
-  const Database database(path);
-  fingerprint_in(database.handle, path);
+void ResultStore::require_results_of(const StudyIdentity& identity, const std::string& path) {
+  if (!std::filesystem::exists(path)) return;
+  const Database database(path, false);
+  if (fingerprint_in(database.handle, path, name_another).empty()) return;
+  Statement said(database.handle, path, "SELECT value FROM study WHERE key = 'path'");
+  const std::string of = said.step() ? said.text() : identity.path;  // older files do not say it
+  if (of == identity.path) return;
+  throw std::runtime_error(path + ": holds the results of " + of + "; delete it yourself, or " +
+                           name_another);
 }
 
 ResultStore::~ResultStore() {
@@ -236,8 +283,9 @@ ResultStore::~ResultStore() {
   }
 }
 
-std::set<std::size_t> ResultStore::cells() const {
-  Statement rows(database_->handle, database_->path, "SELECT cell FROM cells");
+std::set<std::size_t> ResultStore::ended_cells() const {
+  Statement rows(database_->handle, database_->path,
+                 std::string("SELECT cell FROM cells WHERE NOT ") + ended_by_the_machine);
   std::set<std::size_t> cells;
   while (rows.step()) cells.insert(rows.count());
   return cells;
@@ -258,19 +306,28 @@ void ResultStore::keep() {
   database_->pending = 0;
 }
 
-std::vector<CellRecord> ResultStore::records(std::size_t runs) const {
-  Statement rows(database_->handle, database_->path, "SELECT * FROM cells WHERE cell < ? ORDER BY cell");
-  rows.give(runs);
-  std::vector<CellRecord> records;
-  while (rows.step()) records.push_back(taken_from(rows, identity_.draws.size(), identity_.claims.size()));
-  return records;
+std::vector<CellRecord> ResultStore::records(std::size_t runs, std::size_t first, std::size_t of) const {
+  return records_that(
+      database_->handle, database_->path, identity_,
+      "cell < " + std::to_string(runs) + " AND cell % " + std::to_string(of) + " = " + std::to_string(first));
 }
 
 void ResultStore::merge(const std::string& path) {
-  // Otherwise an empty one would be made.
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
-  const ResultStore other(path, identity_);
-  for (const CellRecord& record : other.records(lang::most_cells_of_a_study)) put(record);
+  const Database other(path, false);
+  const std::string found = fingerprint_in(other.handle, path, leave_it_out);
+  if (found.empty())
+    throw std::runtime_error(path + ": holds no results. Copy " + path + "-wal along with it, or " +
+                             leave_it_out);
+  if (found != identity_.fingerprint)
+    throw std::runtime_error(path + ": holds the results of other files or of another version of zwang; " +
+                             leave_it_out);
+  for (const CellRecord& record :
+       records_that(other.handle, path, identity_, std::string("NOT ") + ended_by_the_machine))
+    put(record);
+  const std::set<std::size_t> ended = ended_cells();
+  for (const CellRecord& record : records_that(other.handle, path, identity_, ended_by_the_machine)) {
+    if (!ended.contains(record.cell)) put(record);
+  }
   keep();
 }
 

@@ -120,8 +120,9 @@ TEST(Draws, OfAnotherSeedAreOthers) {
 class Studies : public testing::Test {
  protected:
   Studies() {
-    for (const char* name : {"wall_align.yaml", "robots/mecanum_base.yaml", "robots/mecanum_base.urdf",
-                             "robots/diff_base.yaml", "robots/diff_base.urdf", "scenes/wall.yaml"})
+    for (const char* name :
+         {"wall_align.yaml", "robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/diff_base.yaml",
+          "robots/diff_base.urdf", "robots/car_base.yaml", "robots/car_base.urdf", "scenes/wall.yaml"})
       folder_.write(name, test::slurp(test::source_dir / "specs" / name));
   }
   std::optional<Study> load(const std::string& draws) {
@@ -129,6 +130,13 @@ class Studies : public testing::Test {
         "study.yaml", "zwang_study: 1\ntask: wall_align.yaml\nscene: scenes/wall.yaml\nruns: 10\n" + draws +
                           "expect: [{outcome: done}]\n");
     return load_study(path, diagnostics_);
+  }
+  /// That a study with these lines is refused, and why.
+  void expect_refused(const std::string& draws, const std::string& why) {
+    diagnostics_ = {};
+    EXPECT_FALSE(load(draws)) << draws;
+    EXPECT_NE(test::rendered(diagnostics_).find(why), std::string::npos)
+        << draws << test::rendered(diagnostics_);
   }
   /// The middle of each draw.
   ScenarioRun middle(const Study& study, StudyCell& cell) {
@@ -236,6 +244,90 @@ TEST_F(Studies, TakeTheCellsOfAScenario) {
   const auto of_one = load_study(one, diagnostics_);
   ASSERT_TRUE(of_one) << test::rendered(diagnostics_);
   EXPECT_EQ(of_one->scenario.cells.size(), 1u);
+}
+
+/// A car cannot align itself to a wall (E601): it is the last of four robots, and 900 N are the second of
+/// four.
+TEST_F(Studies, LookAtEachChoice) {
+  expect_refused(
+      "draw: {robot: {choice: [robots/mecanum_base.yaml, robots/diff_base.yaml, "
+      "robots/mecanum_base.yaml, robots/car_base.yaml]}}\n",
+      "error E912: ");
+  expect_refused("draw: {params.push: {choice: [5 N, 900 N, 6 N, 7 N]}}\n", "error E912: ");
+}
+
+TEST_F(Studies, AreReadWhereTheFirstCellIsRefusedAsExpected) {
+  const std::string begin = "zwang_study: 1\ntask: wall_align.yaml\nscene: scenes/wall.yaml\nruns: 10\n";
+  const std::string end = "expect: [{diagnostic: E601, probability: 20 %}]\n";
+  const auto some = folder_.write(
+      "some.yaml",
+      begin + "draw: {robot: {choice: [robots/car_base.yaml, robots/mecanum_base.yaml]}}\n" + end);
+  EXPECT_TRUE(load_study(some, diagnostics_)) << test::rendered(diagnostics_);
+  const auto all =
+      folder_.write("all.yaml", begin + "draw: {robot: {choice: [robots/car_base.yaml]}}\n" + end);
+  EXPECT_FALSE(load_study(all, diagnostics_));
+  EXPECT_EQ(test::count(diagnostics_, "E931"), 1) << test::rendered(diagnostics_);
+}
+
+/// A normal distribution has no ends: what its cells draw has.
+TEST_F(Studies, AreRefusedWhereACellDrawsWhatCannotBe) {
+  constexpr std::size_t runs = 10;
+  bool some_good = false, some_bad = false;
+  for (const int deviation : {20, 40, 60, 80, 100, 120}) {
+    double least = 1e5;
+    const Distribution stiffness{Spread::normal, 1e5, 1e3 * deviation, {}};
+    for (std::size_t cell = 0; cell < runs; ++cell)
+      least = std::min(least, stiffness.quantile(drawn_share(Sequence::random, 0, cell, 0)));
+    diagnostics_ = {};
+    const bool is_good =
+        load("draw: {scene.wall.stiffness: {normal: [100 kN/m, " + std::to_string(deviation) + " kN/m]}}\n")
+            .has_value();
+    EXPECT_EQ(is_good, least > 0.0) << deviation << " kN/m, least " << least << " N/m";
+    (is_good ? some_good : some_bad) = true;
+  }
+  EXPECT_TRUE(some_good && some_bad);
+}
+
+TEST_F(Studies, DrawNothingThatHasNoEffect) {
+  const std::string faults = "faults: {load: [{at: 1 s, payload: 3 kg}]}\n";
+  expect_refused(faults + "draw: {faults.load.at: {uniform: [0 s, 2 s]}}\n", "no cell has the faults `load`");
+  expect_refused(faults + "draw: {faults: {choice: [load]}, faults.load.at: {uniform: [-1 s, 2 s]}}\n",
+                 "`faults.load.at` cannot be -1 s");
+  expect_refused(faults + "draw: {faults: {choice: [load]}, robot.mass: {uniform: [1, 1.1], times: true}}\n",
+                 "`robot.mass`: the run has another `payload`");
+  expect_refused(
+      "draw: {robot.payload: {uniform: [0 kg, 2 kg]}, robot.mass: {uniform: [1, 2], times: true}}\n",
+      "`robot.mass`: the run has another `payload`");
+}
+
+TEST_F(Studies, SayAndDrawAValueOnce) {
+  expect_refused("robot: robots/diff_base.yaml\ndraw: {robot: {choice: [robots/mecanum_base.yaml]}}\n",
+                 "error E102: ");
+  expect_refused("params: {push: 12 N}\ndraw: {params.push: {uniform: [10 N, 30 N]}}\n", "error E102: ");
+  expect_refused("matrix: {params.push: [12 N, 13 N]}\ndraw: {params.push: {uniform: [10 N, 30 N]}}\n",
+                 "error E102: ");
+}
+
+/// They are columns of one table, and SQL does not tell `push` from `Push`.
+TEST_F(Studies, TellDrawsApartByMoreThanTheirCase) {
+  folder_.write("scenes/wall.yaml", test::slurp(test::source_dir / "specs/scenes/wall.yaml") +
+                                        "  Wall: {wall: {length: 1 m, thickness: 0.1 m, height: 1 m}, "
+                                        "at: [-5 m, 0 m], fixed: true, stiffness: 1 kN/m}\n");
+  expect_refused(
+      "draw: {scene.wall.stiffness: {uniform: [1 kN/m, 2 kN/m]}, "
+      "scene.Wall.stiffness: {uniform: [1 kN/m, 2 kN/m]}}\n",
+      "differ in their case alone");
+}
+
+TEST_F(Studies, SayHowManyRunsTheMostDemandingExpectationTakes) {
+  const auto path = folder_.write(
+      "two.yaml",
+      "zwang_study: 1\ntask: wall_align.yaml\nscene: scenes/wall.yaml\nruns: 10\nexpect:\n"
+      "  - {outcome: done, probability: 99 %}\n  - {always: elapsed < 60 s, probability: 99.9 %}\n");
+  ASSERT_TRUE(load_study(path, diagnostics_));
+  EXPECT_EQ(test::count(diagnostics_, "W934"), 1);
+  EXPECT_NE(test::rendered(diagnostics_).find("that takes 2995 without"),
+            std::string::npos);  // 0.999^2995 < 5 %
 }
 
 }  // namespace

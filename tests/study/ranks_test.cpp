@@ -117,6 +117,35 @@ TEST(Ranks, RefuseOneThatHasReadAnotherStudy) {
   EXPECT_THROW(outcomes_with({"this study", "another one"}, 1), std::runtime_error);
 }
 
+/// Rank 0 and rank 2 cannot read the study, rank 1 can: all three end.
+TEST(Ranks, EndWithoutAStudy) {
+  std::map<int, int> sockets;
+  std::vector<pid_t> others;
+  for (int rank = 1; rank <= 2; ++rank) {
+    int ends[2];
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends), 0);
+    const pid_t other = ::fork();
+    if (other == 0) {
+      std::map<std::size_t, std::string> outcomes;
+      SocketMessages messages(rank, {{0, ends[1]}});
+      if (rank == 1) serve_rank({}, calls_of(outcomes), "this study", messages);
+      if (rank == 2) end_without_study(messages);
+      ::_exit(0);
+    }
+    ::close(ends[1]);
+    sockets[rank] = ends[0];
+    others.push_back(other);
+  }
+  SocketMessages messages(0, sockets);
+  end_without_study(messages);
+  for (const pid_t other : others) {
+    int status = -1;
+    ::waitpid(other, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  for (const auto& [rank, socket] : sockets) ::close(socket);
+}
+
 TEST(Ranks, AreNoneWithoutAJob) {
   EXPECT_EQ(messages_of_job(std::nullopt), nullptr);
 }

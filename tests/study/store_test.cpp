@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
@@ -69,7 +70,7 @@ TEST_F(Store, KeepsEveryBit) {
     store.put(made_record(7));  // once more, as after a kill
   }
   const ResultStore again(file("a.db"), made_identity("1"));
-  EXPECT_EQ(again.cells(), (std::set<std::size_t>{2, 7}));
+  EXPECT_EQ(again.ended_cells(), (std::set<std::size_t>{2, 7}));
   const auto records = again.records(100);
   ASSERT_EQ(records.size(), 2u);
   expect_same(records[0], made_record(2));
@@ -82,11 +83,11 @@ TEST_F(Store, ShowsOthersWhatIsKept) {
   ResultStore store(file("a.db"), made_identity("1"));
   const ResultStore reader(file("a.db"), made_identity("1"));
   store.put(made_record(3));
-  EXPECT_TRUE(reader.cells().empty());
+  EXPECT_TRUE(reader.ended_cells().empty());
   store.keep();
-  EXPECT_EQ(reader.cells(), (std::set<std::size_t>{3}));
+  EXPECT_EQ(reader.ended_cells(), (std::set<std::size_t>{3}));
   for (std::size_t cell = 10; cell < 10 + 256; ++cell) store.put(made_record(cell));
-  EXPECT_EQ(reader.cells().size(), 257u);
+  EXPECT_EQ(reader.ended_cells().size(), 257u);
 }
 
 TEST_F(Store, OfAnotherStudyIsRefused) {
@@ -106,9 +107,66 @@ TEST_F(Store, TakesTheCellsOfOthers) {
   }
   { const ResultStore stranger(file("c.db"), made_identity("2")); }
   store.merge(file("b.db"));
-  EXPECT_EQ(store.cells(), (std::set<std::size_t>{0, 1}));
+  EXPECT_EQ(store.ended_cells(), (std::set<std::size_t>{0, 1}));
   EXPECT_THROW(store.merge(file("c.db")), std::runtime_error);
   EXPECT_THROW(store.merge(file("missing.db")), std::runtime_error);
+}
+
+/// The same study with other texts is its own; another one's results are not deleted for it.
+TEST_F(Store, IsDeletedForItsOwnStudyAlone) {
+  StudyIdentity of_other = made_identity("2");
+  of_other.path = "/tasks/other.yaml";
+  { const ResultStore store(file("other.db"), of_other); }
+  EXPECT_THROW(ResultStore::require_results_of(made_identity("1"), file("other.db")), std::runtime_error);
+  of_other.fingerprint = "3";
+  EXPECT_NO_THROW(ResultStore::require_results_of(of_other, file("other.db")));
+  EXPECT_NO_THROW(ResultStore::require_results_of(of_other, file("missing.db")));
+  EXPECT_FALSE(std::filesystem::exists(file("missing.db")));
+}
+
+/// Read-only media and files of others can be joined, too; one without tables has lost its log.
+TEST_F(Store, OnlyReadsWhatItMerges) {
+  namespace fs = std::filesystem;
+  const std::string part = file("50 %? #1.db");
+  {
+    ResultStore other(part, made_identity("1"));
+    other.put(made_record(1));
+  }
+  const auto written = fs::last_write_time(part);
+  fs::permissions(part, fs::perms::owner_read);
+  ResultStore store(file("a.db"), made_identity("1"));
+  store.merge(part);
+  EXPECT_EQ(store.ended_cells(), (std::set<std::size_t>{1}));
+  EXPECT_EQ(fs::last_write_time(part), written);
+  EXPECT_FALSE(fs::exists(part + "-shm"));
+  std::ofstream(file("empty.db")) << "";
+  EXPECT_THROW(store.merge(file("empty.db")), std::runtime_error);
+  EXPECT_EQ(fs::file_size(file("empty.db")), 0u);
+}
+
+/// A machine that was busy, or short of memory, is no verdict on the cell.
+TEST_F(Store, CellsThatHungOrCrashedRunAgain) {
+  const auto that_is = [](std::size_t cell, const char* outcome) {
+    CellRecord record = made_record(cell);
+    record.outcome = outcome;
+    return record;
+  };
+  ResultStore store(file("a.db"), made_identity("1"));
+  for (const CellRecord& record : {that_is(0, "done"), that_is(1, "hung"), that_is(2, "crashed")})
+    store.put(record);
+  store.keep();
+  EXPECT_EQ(store.ended_cells(), (std::set<std::size_t>{0}));
+  EXPECT_EQ(store.records(3).size(), 3u);
+  {
+    ResultStore other(file("b.db"), made_identity("1"));
+    for (const CellRecord& record : {that_is(0, "hung"), that_is(1, "done"), that_is(3, "hung")})
+      other.put(record);
+  }
+  store.merge(file("b.db"));
+  std::string outcomes;
+  for (const CellRecord& record : store.records(10)) outcomes += record.outcome + " ";
+  EXPECT_EQ(outcomes, "done done crashed hung ");
+  EXPECT_EQ(store.records(10, 1, 2).size(), 2u);  // 1 and 3
 }
 
 TEST(Records, AreTextWithoutTheLossOfABit) {

@@ -90,6 +90,24 @@ def check_places(program, folder, zwang, reference):
     expect(not (folder / "joined.db").exists(), "a merge of a missing file leaves an empty one")
     refuses("No such file", "--out", "absent/study.db")
     refuses("there is no folder absent", "--out", "junit.db", "--junit", "absent/junit.xml")
+    refuses("would be written over", "--out", "alone.db", "--junit", "./alone.db")
+    refuses("would be written over", "--junit", str(folder / "study.yaml"))
+    refuses("the page has this name", "--out", "alone.html", "--report")
+    refuses("write the number of the part", "--shard", "-1/-1")
+    for number in ("99999999999999999999999", "-1", ""):
+        ended = zwang("run", "study.yaml", "--cell", number)
+        expect(ended.returncode == 2 and "choose one by its number" in ended.stderr, f"--cell {number}: {ended}")
+    half = zwang("sweep", "study.yaml", "--out", "alone.db", "--shard", "1/2")
+    expect("4 of 4 cells" in half.stdout, f"a half of cells that are there: {half.stdout}")
+
+    shutil.copy(folder / "study.yaml", folder / "namesake.yaml")
+    with open(folder / "namesake.yaml", "a") as study:
+        study.write("seed: 5\n")
+    other = zwang("sweep", "namesake.yaml", "--out", "alone.db", "--fresh")
+    expect(other.returncode == 2 and "study.yaml; delete it yourself" in other.stderr and
+           rows(folder / "alone.db") == reference, f"results of another study: {other}")
+    strange = zwang("sweep", "namesake.yaml", "--out", "of_namesake.db", "--merge", "alone.db")
+    expect(strange.returncode == 2 and "leave it out of --merge" in strange.stderr, f"merged: {strange}")
 
     part = zwang("sweep", "study.yaml", "--out", "part.db", "--merge", "study.1-of-2.db")
     expect(part.returncode == 2 and "4 of 8 cells are missing" in part.stdout, f"a part is missing: {part.stdout}")
@@ -177,6 +195,10 @@ def main(program, specs):
         expect(rows(folder / "ranks.db") == reference, "three ranks have other results than one process")
         expect(ranks.stdout.count("8 of 8 cells") == 1, f"each rank reports: {ranks.stdout}")
         expect("\x1b" not in ranks.stdout, f"a pipe gets what a terminal would: {ranks.stdout!r}")
+        (folder / "bad.yaml").write_text(STUDY.replace("runs: 8", "runs: 0"))
+        bad = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3", program, "sweep", "bad.yaml"],
+                             cwd=folder, capture_output=True, text=True, timeout=60)
+        expect(bad.returncode == 1 and bad.stderr.count("error E105") == 1, f"a bad study in a job: {bad}")
         lost = in_a_job("--out", "absent/ranks.db")
         expect(lost.returncode != 0 and "absent/ranks.db: cannot be written" in lost.stderr,
                f"rank 0 does not say why it ends: {lost.stderr}")

@@ -2,6 +2,7 @@
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_scenario.hpp"
+#include "zwang/lang/study.hpp"
 
 namespace zwang::lang::wording {
 
@@ -47,7 +48,9 @@ Diagnostic too_few_runs(const Span& span, const std::string& probability, const 
   return warning("W934", span,
                  count + " runs cannot show " + probability + " at a confidence of " + confidence +
                      ": that takes " + std::to_string(needed) + " without a miss",
-                 "write `runs: " + std::to_string(needed) + "` or more, or ask for less");
+                 needed > most_cells_of_a_study
+                     ? "ask for less: a study has " + std::to_string(most_cells_of_a_study) + " runs at most"
+                     : "write `runs: " + std::to_string(needed) + "` or more, or ask for less");
 }
 
 }  // namespace zwang::lang::wording

@@ -213,19 +213,30 @@ std::optional<BadValue> bad_robot_value(const RobotNumber& number, double value,
   return std::nullopt;
 }
 
+/// Of a kind of fault the simulation takes one: a second would be without an effect.
+std::optional<BadValue> act_all_along(const std::string& key, FaultKind kind, double value, Program& program,
+                                      const ScenarioCell& cell) {
+  std::vector<Fault>& faults = program.scene->faults;
+  const auto is_same = [&](const Fault& fault) { return fault.kind == kind; };
+  if (std::ranges::any_of(faults, is_same) || std::ranges::any_of(cell.faults, is_same))
+    return BadValue{"`robot." + key + "`: the run has another `" +
+                        (kind == FaultKind::payload ? "payload" : key) + "`, and the simulation takes one",
+                    "draw one of the two, or delete the fault"};
+  faults.push_back(whole_run(kind, value));
+  return std::nullopt;
+}
+
 std::optional<BadValue> put_into_robot(const std::string& key, double value, Program& program,
-                                       RobotDeviation& deviation) {
+                                       ScenarioCell& cell) {
   const RobotNumber* number = robot_number(key);
   if (number == nullptr) return std::nullopt;
   if (auto bad = bad_robot_value(*number, value, program)) return bad;
-  std::vector<Fault>& faults = program.scene->faults;
-  // The first fault of a kind is the one that acts.
-  const auto act = [&](FaultKind kind, double v) { faults.insert(faults.begin(), whole_run(kind, v)); };
-  if (key == "mass")
-    act(FaultKind::payload, (value - 1.0) * program.robot.model.bodies().front().inertia.mass);
-  if (key == "payload") act(FaultKind::payload, value);
-  if (key == "inertia") act(FaultKind::inertia, value - 1.0);
-  if (key == "centre_of_mass") act(FaultKind::centre_of_mass, value);
+  const double mass = program.robot.model.bodies().front().inertia.mass;
+  if (key == "mass") return act_all_along(key, FaultKind::payload, (value - 1.0) * mass, program, cell);
+  if (key == "payload") return act_all_along(key, FaultKind::payload, value, program, cell);
+  if (key == "inertia") return act_all_along(key, FaultKind::inertia, value - 1.0, program, cell);
+  if (key == "centre_of_mass") return act_all_along(key, FaultKind::centre_of_mass, value, program, cell);
+  RobotDeviation& deviation = cell.deviation;
   if (key == "friction") deviation.friction = value;
   if (key == "wheel_radius") deviation.wheel_radius = value;
   if (key == "encoder_step") deviation.encoder_step = value;
@@ -323,15 +334,16 @@ void put_before(const Draw& draw, double value, const std::array<double, 2>& sta
   if (drawable->part != DrawnPart::onset || cell.fault_set != drawable->owner || cell.faults.empty()) return;
   double first = cell.faults.front().at;
   for (const Fault& fault : cell.faults) first = std::min(first, fault.at);
-  for (Fault& fault : cell.faults) fault.at = std::max(0.0, fault.at + value - first);
+  for (Fault& fault : cell.faults) fault.at += value - first;
 }
 
-std::optional<BadValue> put_after(const Draw& draw, double value, Program& program,
-                                  RobotDeviation& deviation) {
+std::optional<BadValue> put_after(const Draw& draw, double value, Program& program, ScenarioCell& cell) {
   const std::optional<Drawable> drawable = drawable_named(draw.name);
-  if (drawable->part < DrawnPart::robot || !program.scene) return std::nullopt;
-  if (drawable->part == DrawnPart::robot) return put_into_robot(drawable->key, value, program, deviation);
   const std::string name = "`" + draw.name + "`";
+  if (drawable->part == DrawnPart::onset && value < 0.0)
+    return BadValue{name + " cannot be " + wording::figure(value, "s"), "let the range begin at 0"};
+  if (drawable->part < DrawnPart::robot || !program.scene) return std::nullopt;
+  if (drawable->part == DrawnPart::robot) return put_into_robot(drawable->key, value, program, cell);
   std::optional<BadValue> bad =
       BadValue{"the scene of this cell has no " + name, "draw what each scene of the study has"};
   const auto put = [&](const NumberRange& range, double& place) {

@@ -50,8 +50,7 @@ void put_before(const Draw& draw, double value, const std::array<double, 2>& sta
 struct BadValue {
   std::string why, help;
 };
-/// Into what was read, and how the simulated robot differs from it. nullopt, or why the value cannot be.
-std::optional<BadValue> put_after(const Draw& draw, double value, Program& program,
-                                  RobotDeviation& deviation);
+/// Into what was read, and into how the cell's robot differs from it. nullopt, or why the value cannot be.
+std::optional<BadValue> put_after(const Draw& draw, double value, Program& program, ScenarioCell& cell);
 
 }  // namespace zwang::lang

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "check/check.hpp"
@@ -49,7 +50,7 @@ std::optional<ScenarioRun> with_draws(const Study& study, StudyCell& cell, std::
     }
     for (std::size_t i = 0; i < study.draws.size(); ++i) {
       const Draw& draw = study.draws[i];
-      if (auto bad = put_after(draw, cell.drawn[i], *run.program, chosen.deviation))
+      if (auto bad = put_after(draw, cell.drawn[i], *run.program, chosen))
         of_study.add(wording::bad_draw(draw.span, bad->why, bad->help));
     }
     check_faults(chosen, *run.program, of_study);
@@ -83,7 +84,7 @@ class StudyReader {
     if (!read_files() || !multiply() || !load_first() || !read_draws()) return std::nullopt;
     read_claims();
     study_.read = std::make_shared<const Diagnostics>(diagnostics_);
-    check_ends();
+    if (check_matrix()) check_draws();
     if (diagnostics_.has_errors()) return std::nullopt;
     return study_;
   }
@@ -130,7 +131,7 @@ class StudyReader {
     for (const DrawText& draw : text_.draws) {
       if (!is_name(draw.name.text)) continue;
       auto key = matrix_key_of(draw, path_.parent_path(), scenario_path_.parent_path(), diagnostics_);
-      if (!key) return false;
+      if (!key || complain_of_fixed(draw)) return false;
       std::erase_if(file_.matrix, [&](const MatrixKey& other) { return other.name == key->name; });
       file_.matrix.push_back(std::move(*key));
     }
@@ -147,23 +148,42 @@ class StudyReader {
     return false;
   }
 
-  /// The first cell tells what can be drawn.
-  bool load_first() {
-    const ScenarioCell& cell = study_.scenario.cells.front();
-    Diagnostics of_task;
-    first_ = load_within(budget_, study_.scenario.task, options_of(cell), start_of(cell), of_task);
-    if (!first_) {
-      complain_of_refusal({text_.scenario.exists() ? text_.scenario.span : file_.task.span}, cell.name,
-                          of_task);
-      return false;
+  /// A study that says a value itself does not draw it, too.
+  bool complain_of_fixed(const DrawText& draw) {
+    for (const auto* keys : {&text_.own.fixed, &text_.own.matrix}) {
+      for (const MatrixKey& key : *keys) {
+        if (key.name != draw.name.text) continue;
+        diagnostics_.add(wording::duplicate_key(draw.name.span, key.name, key.span));
+        return true;
+      }
     }
-    if (first_->scene) study_.start_at = first_->scene->start_at;
-    check_faults(cell, *first_, diagnostics_);
-    return check_expectations(file_, *first_, diagnostics_).has_value();
+    return false;
   }
 
-  void complain_of_refusal(const std::vector<Span>& spans, const std::string& cell,
-                           const Diagnostics& of_task) {
+  /// The first cell whose task is not refused tells what can be drawn.
+  bool load_first() {
+    for (const ScenarioCell& cell : study_.scenario.cells) {
+      Diagnostics of_task;
+      first_ = load_within(budget_, study_.scenario.task, options_of(cell), start_of(cell), of_task);
+      if (!first_) {
+        complain_of_refusal(cell, task_span(), of_task);
+        if (diagnostics_.has_errors()) return false;
+        continue;
+      }
+      if (first_->scene) study_.start_at = first_->scene->start_at;
+      check_faults(cell, *first_, diagnostics_);
+      return check_expectations(file_, *first_, diagnostics_).has_value();
+    }
+    diagnostics_.add(wording::bad_draw(task_span(),
+                                       "each cell is refused, as expected: nothing is left to be drawn",
+                                       "write a scenario, or draw a robot or a scene that is not refused"));
+    return false;
+  }
+
+  Span task_span() const { return text_.scenario.exists() ? text_.scenario.span : file_.task.span; }
+
+  /// `cause`: where the study says what is refused, unless it chose a file.
+  void complain_of_refusal(const ScenarioCell& cell, const Span& cause, const Diagnostics& of_task) {
     const auto d = of_task.first_error();
     if (!d) return;
     std::vector<std::string> codes;
@@ -172,12 +192,15 @@ class StudyReader {
     }
     if (expects_refusal(file_, codes)) return;
     const std::string place = d->span.exists() ? of_task.source(d->span.source).path : std::string();
-    const Span chosen = choice_of(place);
-    diagnostics_.add(wording::refused_draw(chosen.exists() ? std::vector{chosen} : spans, cell, d->code,
-                                           d->message, place + ":" + std::to_string(d->span.begin.line)));
+    Span chosen;
+    for (const fs::path& file : {fs::path(place), cell.robot.value_or(""), cell.scene.value_or("")}) {
+      if (!chosen.exists()) chosen = choice_of(file);
+    }
+    diagnostics_.add(wording::refused_draw({chosen.exists() ? chosen : cause}, cell.name, d->code, d->message,
+                                           place + ":" + std::to_string(d->span.begin.line)));
   }
 
-  /// Where the study chooses the file among others; nowhere: it does not.
+  /// Where the study chooses the file; nowhere: it does not.
   Span choice_of(const fs::path& file) const {
     std::error_code error;
     for (const DrawText& draw : text_.draws) {
@@ -200,7 +223,9 @@ class StudyReader {
                                                nearest(text.name.text, known), known));
         continue;
       }
-      if (complain_of_factor(text, *drawable)) continue;
+      if (complain_of_factor(text, *drawable) || complain_of_fixed(text) || complain_of_case(text) ||
+          complain_of_onset(text, *drawable))
+        continue;
       const Dimension measures = text.is_factor ? dimension::none : drawable->dimension;
       auto distribution = distribution_of(text, measures, diagnostics_);
       if (!distribution) continue;
@@ -225,7 +250,32 @@ class StudyReader {
     return false;
   }
 
+  /// A draw is a column of the results: SQL takes names that differ in case for one.
+  bool complain_of_case(const DrawText& text) {
+    const auto is_same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
+    for (const Draw& other : study_.draws) {
+      if (!std::ranges::equal(other.name, text.name.text, is_same)) continue;
+      diagnostics_.add(wording::bad_draw(
+          text.name.span, "`" + text.name.text + "` and `" + other.name + "` differ in their case alone",
+          "rename one of them: both would be the same column of the results"));
+      return true;
+    }
+    return false;
+  }
+
+  bool complain_of_onset(const DrawText& text, const Drawable& drawable) {
+    const auto has_set = [&](const ScenarioCell& cell) { return cell.fault_set == drawable.owner; };
+    if (drawable.part != DrawnPart::onset || std::ranges::any_of(study_.scenario.cells, has_set))
+      return false;
+    diagnostics_.add(wording::bad_draw(text.name.span, "no cell has the faults `" + drawable.owner + "`",
+                                       "draw them, too: `faults: {choice: [none, " + drawable.owner + "]}`"));
+    return true;
+  }
+
   void read_claims() {
+    std::size_t most_needed = 0;
+    const Claim* most_demanding = nullptr;
+    study_.claims.reserve(file_.expectations.size());
     for (const ExpectationText& text : file_.expectations) {
       Claim claim;
       claim.text = text_of(text);
@@ -235,44 +285,86 @@ class StudyReader {
       study_.claims.push_back(claim);
       if (!claim.probability) continue;
       const std::size_t needed = clean_runs_for(*claim.probability, claim.confidence);
-      if (study_.runs >= needed || has_told_runs_) continue;
-      has_told_runs_ = true;
-      diagnostics_.add(wording::too_few_runs(text_.runs_text.span, percent(*claim.probability),
-                                             percent(claim.confidence), study_.runs, needed));
+      if (needed <= most_needed) continue;
+      most_needed = needed;
+      most_demanding = &study_.claims.back();
     }
+    if (most_needed <= study_.runs) return;
+    diagnostics_.add(wording::too_few_runs(text_.runs_text.span, percent(*most_demanding->probability),
+                                           percent(most_demanding->confidence), study_.runs, most_needed));
   }
 
   static std::string percent(double share) { return format_number(std::round(share * 1e8) / 1e6) + " %"; }
 
-  /// In the middle of all draws, and at both ends of each. A normal one has 95 % of its values between them.
-  void check_ends() {
-    const std::vector<double> middle(study_.draws.size() + 1, 0.5);
+  /// A task that was read, and the cell that says with which files, parameters and start.
+  struct Reading {
+    ScenarioCell of;
     Diagnostics of_task;
-    const std::optional<Program> read = read_task(draw_cell(study_, middle), of_task);
-    const Span cause = text_.scenario.exists() ? text_.scenario.span : file_.task.span;
-    if (!check_cell(middle, read, of_task, cause)) return;
+    std::optional<Program> program;
+
+    bool is_that_of(const ScenarioCell& cell) const {
+      return of.robot == cell.robot && of.scene == cell.scene && of.parameters == cell.parameters &&
+             of.start_at == cell.start_at && of.start_yaw == cell.start_yaw;
+    }
+  };
+
+  Reading read_with(const std::vector<double>& shares) const {
+    const StudyCell cell = draw_cell(study_, shares);
+    Reading reading{cell.cell(), {}, std::nullopt};
+    reading.program = read_task(cell, reading.of_task);
+    return reading;
+  }
+
+  /// Each cell of the matrix in the middle of all draws. False where none is left in which draws have an
+  /// effect.
+  bool check_matrix() {
+    const std::size_t cells = study_.scenario.cells.size();
+    std::optional<Reading> last;
+    for (std::size_t i = 0; i < cells; ++i) {
+      std::vector<double> shares(study_.draws.size() + 1, 0.5);
+      shares.back() = (static_cast<double>(i) + 0.5) / static_cast<double>(cells);
+      if (!last || !last->is_that_of(draw_cell(study_, shares).cell())) last = read_with(shares);
+      if (!check_cell(shares, *last, task_span()) || middle_) continue;
+      middle_ = *last;
+      middle_shares_ = shares;
+    }
+    return middle_ && !diagnostics_.has_errors();
+  }
+
+  /// Each draw for itself, the others in the middle, in the first cell of the matrix that is not refused.
+  void check_draws() {
     for (std::size_t i = 0; i < study_.draws.size(); ++i) {
       const Draw& draw = study_.draws[i];
-      const bool is_normal = draw.distribution.spread == Spread::normal;
-      for (const double end : {is_normal ? 0.025 : 0.0, is_normal ? 0.975 : 1.0 - 0x1p-53}) {
-        std::vector<double> shares = middle;
-        shares[i] = end;
+      for (const double share : looked_at(i)) {
+        std::vector<double> shares = middle_shares_;
+        shares[i] = share;
         // Most draws change what is read already: reading it again costs as much as a second of a run.
-        const bool reads = is_read_with(draw);
-        Diagnostics of_end = reads ? Diagnostics() : of_task;
-        const bool is_good =
-            reads ? check_cell(shares, read_task(draw_cell(study_, shares), of_end), of_end, draw.span)
-                  : check_cell(shares, read, of_end, draw.span);
-        if (!is_good) break;
+        if (!check_cell(shares, is_read_with(draw) ? read_with(shares) : *middle_, draw.span)) break;
       }
     }
   }
 
-  bool check_cell(const std::vector<double>& shares, const std::optional<Program>& read, Diagnostics& of_task,
-                  const Span& cause) {
+  /// Each choice, both ends of a range, and the ends of what the cells draw of a normal distribution. That
+  /// has no ends itself. A hundred thousand cells are drawn in some 10 ms.
+  std::vector<double> looked_at(std::size_t draw) const {
+    const Distribution& distribution = study_.draws[draw].distribution;
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < distribution.values.size(); ++i)
+      shares.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(distribution.values.size()));
+    if (distribution.spread == Spread::choice) return shares;
+    if (distribution.spread != Spread::normal) return {0.0, 1.0 - 0x1p-53};
+    constexpr std::size_t most_looked_at = 100'000;
+    for (std::size_t cell = 0; cell < std::min(study_.runs, most_looked_at); ++cell)
+      shares.push_back(drawn_share(study_.sequence, study_.scenario.seed, cell, draw));
+    const auto [least, most] = std::ranges::minmax(shares);
+    return {least, most};
+  }
+
+  /// Whether it can run.
+  bool check_cell(const std::vector<double>& shares, Reading reading, const Span& cause) {
     StudyCell cell = draw_cell(study_, shares);
     Diagnostics of_study;
-    const auto run = with_draws(study_, cell, read, of_study, of_task);
+    const auto run = with_draws(study_, cell, std::move(reading.program), of_study, reading.of_task);
     if (!run) {
       // A value that cannot be has its place: the draw. An error of the cell itself is told where it began.
       const auto d = of_study.first_error();
@@ -281,7 +373,7 @@ class StudyReader {
                                          d ? d->help : ""));
       return false;
     }
-    if (!run->program) complain_of_refusal({cause}, cell.cell().name, of_task);
+    if (!run->program) complain_of_refusal(cell.cell(), cause, reading.of_task);
     return run->program.has_value();
   }
 
@@ -293,7 +385,8 @@ class StudyReader {
   double budget_ = whole_budget;
   std::optional<Program> first_;
   Study study_;
-  bool has_told_runs_ = false;
+  std::optional<Reading> middle_;      ///< of the first cell of the matrix that can run
+  std::vector<double> middle_shares_;  ///< of that cell
 };
 
 std::string words_of(const Study& study, const StudyCell& cell) {
