@@ -6,7 +6,7 @@ import numpy as np
 import zwang
 
 run = zwang.run(zwang.load("wall_align"), start_yaw=0.2, log=True)
-print(run.outcome, "after", run.time, "s; the first hit:", run.truth["wall.peak_force"], "N")
+print(run.outcome, "after", run.time, "s; the hardest hit:", run.truth["wall.peak_force"], "N")
 try:
     import matplotlib.pyplot as plt
 except ImportError:  # python3-matplotlib is a package of its own
@@ -22,7 +22,7 @@ print(run.why or "nothing")
 for limit in sorted(run.limits, key=lambda limit: limit.margin)[:3]:
     print(limit.row, "at worst", limit.worst, "of", limit.limit, limit.unit)
 
-# %% The largest push whose first hit stays below 150 N. A hit is at most F + sqrt(F^2 + K m v^2): at the 8 cm/s of the file
+# %% The largest push whose hardest hit stays below 150 N. A hit is at most F + sqrt(F^2 + K m v^2): at the 8 cm/s of the file
 # no push does it, so the base comes at 4 cm/s here.
 path = zwang.load("wall_align").path
 with open(path, encoding="utf-8") as file:
