@@ -17,6 +17,7 @@ int log(const LogArguments& arguments) {
   require_log(arguments.run);
   runtime::LogContents log;
   if (arguments.out) {
+    require_place_of_result(*arguments.out);
     OutputFile file(*arguments.out);
     log = runtime::log_as_csv(arguments.run, [&file](std::string_view text) { file.write(text); });
     file.finish();

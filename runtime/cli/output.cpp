@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -153,6 +154,10 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), par
   const std::filesystem::file_status status = std::filesystem::symlink_status(path_, error);
   const bool may_move =
       status.type() == std::filesystem::file_type::not_found || std::filesystem::is_regular_file(status);
+  if (std::filesystem::is_regular_file(status) && ::access(path_.c_str(), W_OK) != 0) {
+    reason_ = errno;
+    refuse();
+  }
   if (may_move) {
     part_ += ".part";
     file_ = std::fopen(part_.c_str(), "wb");
@@ -191,6 +196,17 @@ void OutputFile::finish() {
 
 void OutputFile::refuse() const {
   throw Impossible(path_.string() + ": cannot be written: " + std::strerror(reason_));
+}
+
+void require_place_of_result(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw Impossible(path + ": there is no folder " + folder.string());
+  constexpr std::array read_by_zwang{".yaml", ".yml", ".urdf", ".xacro", ".mcap", ".db"};
+  const std::string extension = fs::path(path).extension().string();
+  if (fs::is_regular_file(path) && std::ranges::find(read_by_zwang, extension) != read_by_zwang.end())
+    throw Impossible(path + ": would be written over; name another file, or delete it first");
 }
 
 void write_file(const std::string& path, std::string_view text) {

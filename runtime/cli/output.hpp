@@ -78,6 +78,10 @@ class OutputFile {
 /// The whole text at once, in the place of what the file held.
 void write_file(const std::string& path, std::string_view text);
 
+/// Throws Impossible where a result cannot go: its folder is missing, or a file of a kind that zwang reads is
+/// there. A user wrote that one, or it took hours.
+void require_place_of_result(const std::string& path);
+
 /// Throws Impossible unless the path is a regular file.
 void require_file(const std::string& path);
 

@@ -212,6 +212,7 @@ std::string write_comparison(const std::string& run, const std::string& other,
 }
 
 int report(const ReportArguments& arguments) {
+  if (arguments.out) require_place_of_result(*arguments.out);
   const std::string page = arguments.compare
                                ? write_comparison(arguments.run, *arguments.compare, arguments.out)
                                : write_page(arguments.run, arguments.out);

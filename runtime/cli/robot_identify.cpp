@@ -177,6 +177,24 @@ std::vector<lang::MeasuredFriction> frictions_of(const runtime::Identification& 
   return frictions;
 }
 
+double mass_of(const lang::Robot& robot) {
+  double mass = 0.0;
+  for (const solver::Body& body : robot.model.bodies()) mass += body.inertia.mass;
+  return mass;
+}
+
+/// The log says the file's path from a folder that may be another one: there may stand another robot.
+void require_robot_of_log(const std::string& file, const lang::Robot& logged) {
+  if (!std::filesystem::is_regular_file(file))
+    throw Impossible(file + ": no such file, seen from here; name the robot file with --update");
+  lang::Diagnostics diagnostics;
+  const auto robot = lang::load_robot(file, diagnostics);
+  constexpr double rounding = 1e-9;
+  if (robot && std::abs(mass_of(*robot) - mass_of(logged)) > rounding * mass_of(logged))
+    throw Impossible(file + ": weighs " + with_unit(mass_of(*robot), "kg") + ", the log's robot " +
+                     with_unit(mass_of(logged), "kg") + "; if it is that robot, name it with --update");
+}
+
 /// Writes the file; an error where it is not of that robot.
 int write_friction(const std::string& file, const std::vector<std::string>& joints,
                    const runtime::Identification& found) {
@@ -227,6 +245,7 @@ int robot_identify(const RobotIdentifyArguments& arguments) {
     print(as_text(found) + about_torque_constants(found));
   }
   if (arguments.dry_run) return exit_good;
+  if (!arguments.update) require_robot_of_log(logs.front().robot_file, logs.front().robot);
   return write_friction(arguments.update.value_or(logs.front().robot_file), joints_of(logs.front().robot),
                         found);
 }

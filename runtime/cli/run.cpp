@@ -61,7 +61,7 @@ std::string headline(const RunArguments& arguments, const lang::Program& program
 std::unique_ptr<runtime::ScenePlant> plant_of_run(const RunArguments& arguments, const lang::Program& program,
                                                   lang::Diagnostics& diagnostics) {
   runtime::ScenePlantOptions options = plant_options(program);
-  options.seed = arguments.seed;
+  options.seed = arguments.seed.value_or(0);
   if (arguments.choice) options.faults = arguments.choice->faults;
   if (arguments.choice) options.deviation = arguments.choice->deviation;
   return start_plant(program, options, diagnostics);
@@ -152,7 +152,7 @@ int run_program(const RunArguments& arguments, const lang::Program& program, lan
   if (talks) print(headline(arguments, program));
   Live live(talks);
   RunReport report;
-  report.seed = arguments.seed;
+  report.seed = arguments.seed.value_or(0);
   report.logs.push_back((folder / log_name(arguments, "log")).string());
   if (view != nullptr) view->wait_for_page(interrupted);
   const auto begin = Clock::now();

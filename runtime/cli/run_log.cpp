@@ -66,7 +66,7 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
   context.facts["scene"] = scene.path;
   if (!robot.robot_path.empty()) context.facts["robot"] = robot.robot_path;
   context.facts["partner"] = robot.name;
-  context.facts["seed"] = std::to_string(arguments.seed);
+  context.facts["seed"] = std::to_string(arguments.seed.value_or(0));
   return context;
 }
 
@@ -100,7 +100,7 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagno
   std::map<std::string, std::string>& facts = context.facts;
   if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
   if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
-  facts["seed"] = std::to_string(arguments.seed);
+  facts["seed"] = std::to_string(arguments.seed.value_or(0));
   if (arguments.choice) {
     facts["scenario"] = arguments.choice->scenario;
     facts["cell"] = arguments.cell.value_or("as written");

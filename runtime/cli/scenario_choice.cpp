@@ -17,7 +17,7 @@ constexpr std::size_t most_names = 8;  // that a message lists
 
 /// Options that say what a scenario or a study says.
 void refuse_overrides(const RunArguments& arguments, const std::string& whose) {
-  if (arguments.overrides.any() || arguments.start_yaw || arguments.start_at || arguments.seed != 0 ||
+  if (arguments.overrides.any() || arguments.start_yaw || arguments.start_at || arguments.seed ||
       arguments.watch)
     throw Impossible(arguments.file + ": " + whose +
                      " says how it runs; of the options that say the same, and "

@@ -186,9 +186,7 @@ void require_places(const SweepArguments& arguments, const std::string& results)
   if (arguments.report && page_path(results) == results)
     throw Impossible(results + ": the page has this name; name another file with --out");
   if (!arguments.junit) return;
-  const fs::path folder = fs::path(*arguments.junit).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder))
-    throw Impossible(*arguments.junit + ": there is no folder " + folder.string());
+  require_place_of_result(*arguments.junit);
   const auto place = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
   for (const std::string& kept : {results, page_path(results), arguments.study}) {
     if (place(*arguments.junit) == place(kept))

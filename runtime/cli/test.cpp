@@ -124,9 +124,24 @@ void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& 
   }
 }
 
+std::string page_of(const TestArguments& arguments) {
+  return arguments.out.value_or("test-report.html");
+}
+
+/// What would not be written, or be lost, is told before the runs.
+void require_places(const TestArguments& arguments) {
+  if (arguments.junit) require_place_of_result(*arguments.junit);
+  if (!arguments.report) return;
+  const std::string page = page_of(arguments);
+  require_place_of_result(page);
+  if (arguments.junit && fs::absolute(page) == fs::absolute(*arguments.junit))
+    throw Impossible(page + ": the page and --junit have this name");
+}
+
 }  // namespace
 
 int test(const TestArguments& arguments) {
+  require_places(arguments);
   if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   const std::vector<std::string> files = scenario_files(arguments.paths);
   std::vector<ScenarioReport> reports(files.size());
@@ -168,7 +183,7 @@ int test(const TestArguments& arguments) {
     print(human_report(reports, seconds));
   }
   if (arguments.report) {
-    const std::string page = write_test_page(reports, seconds, arguments.out.value_or("test-report.html"));
+    const std::string page = write_test_page(reports, seconds, page_of(arguments));
     if (arguments.format == Format::human) print("page   " + page + "\n");
   }
   if (arguments.junit) write_file(*arguments.junit, junit_report(reports));

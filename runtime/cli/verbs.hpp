@@ -133,7 +133,7 @@ struct RunArguments {
   bool csv = false;                ///< log.csv beside it
   std::optional<double> log_rate;  ///< [1/s] most records
   runtime::LogRotation rotation;
-  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> seed;  ///< none: 0
   bool quiet = false;
   bool watchdog = false;
   bool watch = false;            ///< files that change are loaded again

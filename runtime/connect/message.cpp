@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace zwang::connect {
 
@@ -139,11 +140,13 @@ Header header_at(double stamp, const std::string& frame) {
 std::optional<double> LaserScan::nearest(double low, double high) const {
   std::optional<double> nearest;
   const auto [first, last, step, by, in, least, most] = facts;
+  // Some scanners count from 0 to 2 pi, others from -pi to pi.
+  const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double angle = static_cast<double>(first) + static_cast<double>(i) * static_cast<double>(step);
     const double range = static_cast<double>(ranges[i]);
     const bool is_valid = range >= static_cast<double>(least) && range <= static_cast<double>(most);
-    if (angle < low || angle > high || !is_valid) continue;
+    if (!is_valid || std::abs(std::remainder(angle - middle, 2.0 * std::numbers::pi)) > half) continue;
     nearest = std::min(nearest.value_or(range), range);
   }
   return nearest;

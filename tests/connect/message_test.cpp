@@ -127,6 +127,18 @@ TEST(Message, OfAScanTellsTheNearestValidRange) {
   EXPECT_FALSE(scan().nearest(-0.05, 0.05).has_value());
 }
 
+/// The same rays, counted from 0 to 2 pi or below -pi, stand where they stood.
+TEST(Message, OfAScanKnowsThatAnglesRepeat) {
+  for (const double turns : {-1.0, 1.0, 2.0}) {
+    LaserScan turned = scan();
+    std::get<0>(turned.facts) += static_cast<float>(turns * 2.0 * std::numbers::pi);
+    EXPECT_EQ(turned.nearest(-0.25, 0.25), 3.0);
+    EXPECT_EQ(turned.nearest(0.05, 0.25), 4.0);
+    EXPECT_EQ(turned.nearest(2.0 * std::numbers::pi - 0.25, 2.0 * std::numbers::pi + 0.25), 3.0);
+    EXPECT_FALSE(turned.nearest(-0.05, 0.05).has_value());
+  }
+}
+
 TEST(Message, HasTheNamesOfRos2) {
   EXPECT_EQ(dds_type("geometry_msgs/TwistStamped"), "geometry_msgs::msg::dds_::TwistStamped_");
   EXPECT_EQ(dds_type("std_srvs/srv/Trigger"), "std_srvs::srv::dds_::Trigger_");

@@ -41,11 +41,12 @@ TEST(ConnectionTimes, TheRobotsPeriodBoundsStaleAfter) {
   EXPECT_EQ(code_of_times(", stale_after: 2.001 s", ""), "E928");
 }
 
-TEST(ConnectionTimes, CommandsLeaveBetweenOnceATickAndOnceInStaleAfter) {
+/// The drive counts on commands at 50 Hz: E631 and the stop reckon with that.
+TEST(ConnectionTimes, CommandsLeaveBetweenOnceATickAndAsOftenAsTheDriveCountsOn) {
   EXPECT_EQ(code_of_times("", ", rate: 1000 Hz"), "");  // ticks of 1 ms
   EXPECT_EQ(code_of_times("", ", rate: 1001 Hz"), "E928");
-  EXPECT_EQ(code_of_times("", ", rate: 10 Hz"), "");  // 100 ms, the default of `stale_after`
-  EXPECT_EQ(code_of_times("", ", rate: 9.9 Hz"), "E928");
+  EXPECT_EQ(code_of_times("", ", rate: 50 Hz"), "");
+  EXPECT_EQ(code_of_times("", ", rate: 49 Hz"), "E928");
   EXPECT_EQ(code_of_times(", stale_after: 50 ms", ", rate: 19 Hz"), "E928");
 }
 

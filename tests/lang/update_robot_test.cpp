@@ -173,5 +173,24 @@ TEST(FrictionUpdate, adds_the_section_where_there_is_none) {
       0.25);
 }
 
+/// A line cannot be put into braces, and a section would hide that of the file that it is based on.
+TEST(FrictionUpdate, leaves_a_file_that_could_not_be_read_any_more) {
+  const test::Folder folder;
+  const auto refused = [&](const std::string& text) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(with_friction(folder.write("robot.yaml", text), {{"right_wheel", 0.25, 0.03}}, diagnostics));
+    return test::count(diagnostics, "E816") == 1;
+  };
+  EXPECT_TRUE(refused("zwang_robot: 1\nfriction: {left_wheel: {coulomb: 0.1 N m}}\nname: two\n"));
+  EXPECT_TRUE(refused("zwang_robot: 1\nfriction:\n    left_wheel: {coulomb: 0.1 N m}\n"));
+  EXPECT_TRUE(refused("zwang_robot: 1\nbased_on: other.yaml\n"));
+}
+
+TEST_F(UpdateRobot, is_of_robot_files_alone) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(options_of(folder_.write("task.yaml", "zwang: 1\nrobot: two.yaml\n"), diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
 }  // namespace
 }  // namespace zwang::lang

@@ -126,6 +126,27 @@ TEST_F(Logs, OfARunBeforeAreGone) {
   EXPECT_TRUE(told({"info", "log"})["whole"]);
 }
 
+/// What a user wrote, and what took hours, is not replaced by a result.
+TEST_F(Logs, AndFilesThatAreReadAreNotWrittenOver) {
+  ASSERT_EQ(run("a").code, 0);
+  write("scenario.yaml", "zwang_scenario: 1\ntask: task.yaml\nexpect: [{outcome: done}]\n");
+  const std::string log = read(folder_ / "a/log.mcap"), scenario = read(folder_ / "scenario.yaml");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"log", "a", "-o", "a/log.mcap"},
+                                                {"report", "a", "-o", "a/log.mcap"},
+                                                {"test", "scenario.yaml", "--junit", "scenario.yaml"},
+                                                {"test", "scenario.yaml", "--report", "-o", "task.yaml"}}) {
+    const Result refused = zwang(words);
+    EXPECT_EQ(refused.code, 2) << refused.out;
+    EXPECT_NE(refused.err.find("would be written over"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(read(folder_ / "a/log.mcap"), log);
+  EXPECT_EQ(read(folder_ / "scenario.yaml"), scenario);
+  EXPECT_EQ(read(folder_ / "task.yaml"), standing);
+  const Result early = zwang({"test", "scenario.yaml", "--junit", "absent/junit.xml"});
+  EXPECT_EQ(early.code, 2);
+  EXPECT_EQ(early.out, "");
+}
+
 TEST_F(Logs, WithARateHaveFewRecordsAndEverySwitch) {
   ASSERT_EQ(run("whole").code, 0);
   ASSERT_EQ(run("few", {"--log-rate", "50"}).code, 0);

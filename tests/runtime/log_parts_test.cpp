@@ -122,6 +122,25 @@ TEST(LogParts, OfARunThatIsUnderWayStay) {
   EXPECT_TRUE(fs::exists(folder.path() / "log_final.mcap"));
 }
 
+/// The first parts of a run that still writes have no lock any more.
+TEST(LogParts, OfARunThatWritesItsLastOneStay) {
+  const test::TemporaryFolder folder;
+  const auto sink = rotating(folder.path(), {.seconds = 1.0, .bytes = {}});
+  ASSERT_EQ(sink->open(columns_with_events), "");
+  write_ticks(*sink, 0, 2500);
+  EXPECT_NE(remove_log(folder.path(), "log").find("another run writes this log"), std::string::npos);
+  EXPECT_EQ(log_files(folder.path()).size(), 3u);
+  EXPECT_EQ(sink->close(), "");
+}
+
+TEST(LogParts, AreNotWrittenOverWhatIsNoLog) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "log.mcap") << "zwang: 1\n";
+  const auto sink = mcap_sink(folder.path() / "log.mcap", {});
+  EXPECT_NE(sink->open(columns_with_events).find("is no log, and would be lost"), std::string::npos);
+  EXPECT_EQ(fs::file_size(folder.path() / "log.mcap"), 9u);
+}
+
 TEST(LogRate, KeepsSwitchesEventsAndTheEnd) {
   const test::TemporaryFolder folder;
   const auto sink = thinned_sink(mcap_sink(folder.path() / "log.mcap", {}), 10.0);

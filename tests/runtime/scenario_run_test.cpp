@@ -315,6 +315,44 @@ expect: [{outcome: done}]
   EXPECT_FALSE(result.passed);
 }
 
+/// `press` is entered once, and the wall is not touched yet: both figures equal their thresholds.
+TEST(ScenarioRun, EqualValuesAreNeitherAboveNorBelow) {
+  for (const std::string comparison : {"entries(press) OP 1", "truth.wall.peak OP 0 N"}) {
+    for (const std::string op : {"<", ">", "<=", ">="}) {
+      std::string that = comparison;
+      that.replace(that.find("OP"), 2, op);
+      const CellResult result =
+          run_scenario("time_limit: 0.3 s\nexpect:\n  - {at: end, that: " + that + "}\n  - {always: " + that +
+                       "}\n  - {at: end, that: not (" + that + ")}\n");
+      const bool may_be_equal = op.ends_with("=");
+      ASSERT_EQ(result.expectations.size(), 3u);
+      EXPECT_EQ(result.expectations[0].held, may_be_equal) << that;
+      EXPECT_EQ(result.expectations[1].held, may_be_equal) << that;
+      EXPECT_EQ(result.expectations[2].held, !may_be_equal) << that;
+      EXPECT_EQ(result.expectations[0].margin, 0.0) << that;
+    }
+  }
+}
+
+TEST(ScenarioRun, WhatCannotBeSimulatedHoldsNothing) {
+  std::string without_scene = roomy;
+  without_scene.erase(without_scene.find("scene: "), std::string("scene: scenes/dock_live.yaml\n").size());
+  const CellResult result = run_scenario(
+      "task: lamp.yaml\nexpect: [{diagnostic: W302}, {at: end, that: elapsed < 1 h}]\n", without_scene);
+  EXPECT_EQ(result.outcome, "error");
+  EXPECT_FALSE(result.passed);
+}
+
+/// 5 kg of payload, and 20 kg from 0.1 s on: the base of 46 kg weighs 66 kg.
+TEST(ScenarioRun, OfTwoFaultsOfAKindTheLaterOneActs) {
+  const CellResult result = run_scenario(R"(time_limit: 0.3 s
+faults: {load: [{at: 0 s, payload: 5 kg}, {at: 0.1 s, payload: 20 kg}]}
+matrix: {faults: [load]}
+expect: [{at: end, that: abs(truth.base.mass - 66 kg) < 1 g}]
+)");
+  EXPECT_TRUE(result.passed) << result.expectations.front().value.value_or(0.0);
+}
+
 TEST(ScenarioRun, AFaultOfAMotorThatTheRobotDoesNotHaveIsSaidBeforeItRuns) {
   const char* text = R"(faults: {broken: [{at: 1 s, wheel: left_wheel, torque: lost}]}
 matrix: {faults: [broken]}

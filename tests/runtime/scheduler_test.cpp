@@ -370,6 +370,33 @@ TEST(Limits, TheRobotsAreLevelZeroRowsOnTheBaseWhereTheTaskGivesNone) {
   EXPECT_EQ(bench.constraint(1).velocity->low, -1.0) << "the other task gives no range of its own";
 }
 
+/// A driver of an earlier level, or a weight, may break the task's range: the robot's own stays in force.
+TEST(Limits, HoldWhereADriverMayBreakTheTasksRange) {
+  const auto robots_limit_holds = [](int level, bool is_soft) {
+    lang::Task a = task("a", ahead);
+    lang::Group manners = a.groups[0];
+    manners.name = "manners";
+    manners.axes = {free_axis("manners.x", Axis::x)};
+    manners.axes[0].velocity = between(-0.2, 0.2);
+    manners.axes[0].level = level;
+    if (is_soft) manners.axes[0].weight = lang::Value{.constant = 1.0};
+    a.groups.push_back(manners);
+    lang::Program p = program({a});
+    p.robot.limits = {{Axis::x, Quantity::velocity, {-1, 1}, {}}};
+    Bench bench(p);
+    bench.tick();
+    for (int i = 0; i < bench.count(); ++i) {
+      const auto& velocity = bench.constraint(i).velocity;
+      if (bench.constraint(i).level == 0 && velocity && velocity->high == 1.0) return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(robots_limit_holds(0, false));
+  EXPECT_FALSE(robots_limit_holds(1, false));
+  EXPECT_TRUE(robots_limit_holds(2, false));
+  EXPECT_TRUE(robots_limit_holds(1, true));
+}
+
 TEST(Construction, RefusesProgramsThatCannotRun) {
   lang::Program p = program({});
   EXPECT_THROW(Scheduler(p, period), std::invalid_argument);

@@ -150,6 +150,8 @@ void check_times(const Connection& connection, const Program& program, Diagnosti
   if (!command.rate) return;
   if (1.0 / *command.rate < (1.0 - rounding_of_rates) * program.robot.control_period)
     diagnostics.add(wording::rate_too_high(command.rate_span, *command.rate, program.robot.control_period));
+  if (drive.takes_velocity && *command.rate < (1.0 - rounding_of_rates) * drive.rate)
+    diagnostics.add(wording::rate_below_drive(command.rate_span, *command.rate, drive.rate));
   if (1.0 / *command.rate > joints.stale_after)
     diagnostics.add(wording::rate_too_low(command.rate_span, *command.rate, joints.stale_after));
 }

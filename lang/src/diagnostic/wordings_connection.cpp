@@ -133,6 +133,13 @@ Diagnostic rate_too_high(const Span& span, double rate, double period) {
                "leave `rate` out, or write the rate at which the receiver reads");
 }
 
+Diagnostic rate_below_drive(const Span& span, double rate, double of_drive) {
+  return error("E928", span,
+               "the robot file's `drive` counts on commands at " + format_number(of_drive) +
+                   " Hz, the connection sends " + format_number(rate) + " Hz",
+               "leave `rate` out, or write the lower rate into the robot file, too");
+}
+
 Diagnostic rate_too_low(const Span& span, double rate, double stale_after) {
   return error("E928", span,
                "a stop would wait for up to " + format_number(std::ceil(1e3 / rate)) +

@@ -39,6 +39,7 @@ Diagnostic stale_at_once(const Span& span, double stale_after, double sampled);
 /// `rate` [1/s] above that of the ticks, `period` [s].
 Diagnostic rate_too_high(const Span& span, double rate, double period);
 /// `rate` [1/s] so low that a stop leaves later than `stale_after` [s].
+Diagnostic rate_below_drive(const Span& span, double rate, double of_drive);
 Diagnostic rate_too_low(const Span& span, double rate, double stale_after);
 Diagnostic tasks_without_goals(const Span& span);
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic);

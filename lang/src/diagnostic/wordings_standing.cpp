@@ -397,4 +397,9 @@ Diagnostic update_of_based_on(const Span& span, const std::string& file) {
                "update that file, or a file without `based_on`");
 }
 
+Diagnostic update_unreadable(const Span& span) {
+  return error("E816", span, "with what is added here the file could not be read; it was left as it was",
+               "write each list and each section in lines of their own, without braces, and run it again");
+}
+
 }  // namespace zwang::lang::wording

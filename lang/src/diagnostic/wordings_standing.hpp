@@ -176,5 +176,6 @@ Diagnostic beyond_the_joints(const Span& span, const TooFast& fast, const Span& 
 /// `most` 0: it leads back; else so many files are too many.
 Diagnostic based_on_itself(const Span& span, const std::string& file, int most);
 Diagnostic update_of_based_on(const Span& span, const std::string& file);
+Diagnostic update_unreadable(const Span& span);
 
 }  // namespace zwang::lang::wording

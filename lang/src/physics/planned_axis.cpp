@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zwang::lang {
 
@@ -253,15 +254,22 @@ bool is_base(const solver::AttachedFrame& frame) {
   return frame.body == 0 && frame.pose.position.isZero() && frame.pose.rotation.isIdentity();
 }
 
-/// In force where `always` and the task give none on the base's own axis.
+/// In force where `always` and the task give none on the base's own axis, or one that a driver may break: on
+/// a later level, or with a weight.
 void add_robot_limits(const CheckContext& context, std::vector<PlannedAxis>& axes) {
   const std::size_t given = axes.size();
+  int driven = std::numeric_limits<int>::max();
+  for (const PlannedAxis& axis : axes) {
+    if (axis.driver) driven = std::min(driven, axis.level);
+  }
   for (const BaseLimit& limit : context.robot->limits) {
     const auto index = static_cast<std::size_t>(limit.quantity);
-    const bool is_given = std::any_of(
-        axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(given), [&](const PlannedAxis& axis) {
-          return is_base(axis.move) && is_base(axis.in) && axis.axis == limit.axis && axis.ranges[index];
-        });
+    const bool is_given = std::any_of(axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(given),
+                                      [&](const PlannedAxis& axis) {
+                                        const bool holds = !axis.is_soft && axis.level <= driven;
+                                        return holds && is_base(axis.move) && is_base(axis.in) &&
+                                               axis.axis == limit.axis && axis.ranges[index];
+                                      });
     if (is_given) continue;
     PlannedAxis axis;
     axis.path = "the robot file's limit";

@@ -1,6 +1,7 @@
 #include "zwang/lang/friction_update.hpp"
 
 #include "diagnostic/wordings_physics.hpp"
+#include "diagnostic/wordings_standing.hpp"
 #include "robot/text_edits.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
@@ -41,6 +42,10 @@ std::optional<std::string> with_friction(const std::filesystem::path& robot_file
   const std::string text = diagnostics.source(*source).text;
   const TextIndex index(text);
   const Entry* section = document->root.find("friction");
+  if (const Entry* based_on = document->root.find("based_on"); based_on != nullptr && section == nullptr) {
+    diagnostics.add(wording::update_of_based_on(based_on->value.span, based_on->value.text));
+    return std::nullopt;
+  }
   TextEdits edits;
   std::string added;
   for (const MeasuredFriction& friction : frictions) {
@@ -60,7 +65,10 @@ std::optional<std::string> with_friction(const std::filesystem::path& robot_file
     const int below = section->key.span.begin.line + 1;
     edits.add(std::min(text.size(), index.offset({below, 1})), 0, added);
   }
-  return edits.applied_to(text);
+  std::string changed = edits.applied_to(text);
+  if (is_yaml(changed)) return changed;
+  diagnostics.add(wording::update_unreadable(section != nullptr ? section->key.span : document->root.span));
+  return std::nullopt;
 }
 
 }  // namespace zwang::lang

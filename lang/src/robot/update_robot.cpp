@@ -10,6 +10,7 @@
 #include "robot/joint_axes.hpp"
 #include "robot/text_edits.hpp"
 #include "robot/urdf.hpp"
+#include "spec/shape.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
 #include "words/text.hpp"
@@ -284,6 +285,8 @@ std::optional<DraftOptions> options_of(const std::filesystem::path& robot_file, 
   const std::optional<int> source = read_file(robot_file, yaml_size_limit, {}, diagnostics);
   const std::optional<Document> document = source ? read(*source, diagnostics) : std::nullopt;
   if (!document) return std::nullopt;
+  MapReader map(document->root, "a robot file", diagnostics);
+  if (!map.is_mapping() || !check_version(map, "zwang_robot", 1, diagnostics)) return std::nullopt;
   DraftOptions options;
   if (const Entry* ignored = document->root.find("ignore")) {
     for (const Node& link : ignored->value.items) options.ignored.push_back(link.text);
@@ -317,7 +320,10 @@ std::optional<RobotUpdate> update_robot_file(const std::filesystem::path& robot_
   const std::optional<Document> fresh = read(drafted, diagnostics);
   if (!urdf || !fresh) return std::nullopt;
   const Read old_text(diagnostics.source(*source).text, old->root), draft_text(draft.text, fresh->root);
-  return Update(old_text, draft_text, *urdf).run();
+  std::optional<RobotUpdate> update = Update(old_text, draft_text, *urdf).run();
+  if (!update || is_yaml(update->text)) return update;
+  diagnostics.add(wording::update_unreadable(old->root.span));
+  return std::nullopt;
 }
 
 }  // namespace zwang::lang

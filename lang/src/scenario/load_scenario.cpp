@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "check/check.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
@@ -119,12 +121,16 @@ std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& pat
 
 }  // namespace
 
+/// A robot of a scene that was not read.
+constexpr int nobody = std::numeric_limits<int>::max();
+
 std::vector<Expectation> expectations_of_words(const ScenarioFile& file) {
   std::vector<Expectation> expectations;
   for (const ExpectationText& text : file.expectations) {
     Expectation expected;
     expected.kind = text.kind;
     expected.word = text.word.text;
+    if (text.of.exists()) expected.of_robot = nobody;
     expected.text = text_of(text);
     expected.span = text.span;
     expectations.push_back(std::move(expected));

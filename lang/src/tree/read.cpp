@@ -341,4 +341,9 @@ std::vector<Position> positions_of(const Node& scalar, std::string_view text) {
   return result;
 }
 
+bool is_yaml(const std::string& text) {
+  Diagnostics diagnostics;
+  return read(diagnostics.add_source({"", text}), diagnostics).has_value() && !diagnostics.has_errors();
+}
+
 }  // namespace zwang::lang

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Document {
 /// The single document of a source. nullopt: there is no tree. An error that concerns one part alone (tags,
 /// doubled keys) marks that part as bad.
 std::optional<Document> read(int source, Diagnostics& diagnostics);
+
+/// Whether it can be read, whatever it says.
+bool is_yaml(const std::string& text);
 
 /// The place of every byte of a scalar's value, and of its end, in the source's text.
 std::vector<Position> positions_of(const Node& scalar, std::string_view text);

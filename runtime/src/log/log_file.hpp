@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -68,7 +69,15 @@ class LogFile {
     if (!S_ISREG(facts.st_mode)) return "";
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
       return errno == EWOULDBLOCK ? "another run writes this log" : std::strerror(errno);
+    if (!is_log(descriptor)) return "is no log, and would be lost";
     return ::ftruncate(descriptor, 0) == 0 ? "" : std::strerror(errno);
+  }
+  /// An empty file, MCAP, or CSV whose first column is the time.
+  static bool is_log(int descriptor) {
+    std::array<char, 5> begin{};
+    const ssize_t size = ::pread(descriptor, begin.data(), begin.size(), 0);
+    const std::string_view text(begin.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+    return text.empty() || text == "\x89MCAP" || text.starts_with("time");
   }
   /// A file without a name takes what is written, and is gone when it is closed.
   bool has_a_name() const {

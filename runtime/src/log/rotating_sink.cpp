@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "log/log_files.hpp"
 #include "zwang/runtime/log_parts.hpp"
@@ -100,19 +101,18 @@ constexpr RotationUnit rotation_units[] = {{"kB", 1e3, false},     {"MB", 1e6, f
                                            {"min", 60.0, true},    {"GiB", 0x1p30, false}};
 constexpr double fewest_bytes = 1e6, shortest = 1.0, most = 1e15;
 
-/// Removes it unless a run writes it, which keeps a lock on its log. `LogFile` refuses links and pipes.
-std::string remove_file(const fs::path& path) {
+/// `LogFile` refuses links and pipes.
+enum class Kind { file, written, other };
+
+/// A run keeps a lock on the log that it writes.
+Kind kind_of(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor < 0) return "";
+  if (descriptor < 0) return Kind::other;
   struct stat facts = {};
   const bool is_file = ::fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode);
   const bool is_written = is_file && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(descriptor);
-  if (is_written) return path.string() + ": another run writes this log";
-  if (!is_file) return "";
-  std::error_code error;
-  fs::remove(path, error);
-  return error ? path.string() + ": " + error.message() : "";
+  return is_written ? Kind::written : is_file ? Kind::file : Kind::other;
 }
 
 }  // namespace
@@ -140,12 +140,19 @@ std::unique_ptr<LogSink> rotating_sink(const fs::path& folder, const std::string
 }
 
 std::string remove_log(const fs::path& folder, const std::string& stem) {
-  std::string error = remove_file(folder / (stem + ".mcap"));
-  if (error.empty()) error = remove_file(folder / (stem + ".csv"));
-  for (const fs::path& part : log_parts(folder, stem)) {
-    if (error.empty()) error = remove_file(part);
+  std::vector<fs::path> files = log_parts(folder, stem);
+  files.push_back(folder / (stem + ".mcap"));
+  files.push_back(folder / (stem + ".csv"));
+  // The parts of a run that still writes have no lock but the last one.
+  for (const fs::path& file : files) {
+    if (kind_of(file) == Kind::written) return file.string() + ": another run writes this log";
   }
-  return error;
+  for (const fs::path& file : files) {
+    std::error_code error;
+    if (kind_of(file) == Kind::file) fs::remove(file, error);
+    if (error) return file.string() + ": " + error.message();
+  }
+  return "";
 }
 
 }  // namespace zwang::runtime

@@ -81,11 +81,13 @@ bool InjectedFaults::in_force(const Fault& fault, double time) noexcept {
 }
 
 const Fault* InjectedFaults::find(FaultKind kind, double time, Eigen::Index joint) const noexcept {
+  const Fault* latest = nullptr;
   for (const Injected& injected : faults_) {
-    if (injected.fault.kind == kind && injected.joint == joint && in_force(injected.fault, time))
-      return &injected.fault;
+    const Fault& fault = injected.fault;
+    if (fault.kind != kind || injected.joint != joint || !in_force(fault, time)) continue;
+    if (latest == nullptr || fault.at >= latest->at) latest = &fault;
   }
-  return nullptr;
+  return latest;
 }
 
 bool InjectedFaults::active(FaultKind kind, double time) const noexcept {

@@ -13,11 +13,16 @@ namespace {
 
 constexpr double not_at_all = -1.0;  ///< margin of an unknown condition
 
-double distance(double below, double above, double scale) {
+/// The margin of a comparison of equal values: `<=` holds, and its `not` does not; of `<` it is the other
+/// way.
+constexpr double just_held = std::numeric_limits<double>::denorm_min();
+
+double distance(double below, double above, double scale, bool may_be_equal) {
   const double left = above - below;
   if (std::isnan(left)) return not_at_all;
+  if (left == 0.0) return may_be_equal ? just_held : -just_held;
   // Of a threshold of 0 nothing is a share.
-  if (scale == 0.0) return left == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), left);
+  if (scale == 0.0) return std::copysign(std::numeric_limits<double>::infinity(), left);
   return left / std::abs(scale);
 }
 
@@ -85,11 +90,11 @@ Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a
       break;
     case Op::less:
     case Op::less_equal:
-      out.margin = distance(a.value, b.value, threshold(a, b).value);
+      out.margin = distance(a.value, b.value, threshold(a, b).value, node.op == Op::less_equal);
       break;
     case Op::greater:
     case Op::greater_equal:
-      out.margin = distance(b.value, a.value, threshold(a, b).value);
+      out.margin = distance(b.value, a.value, threshold(a, b).value, node.op == Op::greater_equal);
       break;
     case Op::logical_and: {
       const Reading& least = a.margin <= b.margin ? a : b;
@@ -177,7 +182,7 @@ ExpectationResult ExpectationWatch::result(const std::string& outcome,
       result.held = was_looked_at_ && worst_ >= 0.0;
       result.time = worst_time_;
       if (!was_looked_at_ || worst_ == not_asked) return result;
-      if (std::isfinite(worst_)) result.margin = worst_;
+      if (std::isfinite(worst_)) result.margin = std::abs(worst_) > just_held ? worst_ : 0.0;
       if (decisive_ < 0 || !std::isfinite(worst_value_)) return result;
       result.value = worst_value_;
       result.unit = expectation_.units[static_cast<std::size_t>(decisive_)];

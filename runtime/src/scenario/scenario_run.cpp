@@ -32,11 +32,13 @@ double torque_share(const lang::Robot& robot, const Eigen::VectorXd& tau) noexce
 
 void judge(const std::vector<ExpectationWatch>& watches, const std::vector<std::string>& codes,
            CellResult& result) {
-  result.passed = true;
+  const bool was_run = result.outcome != "error";  // of what could not be simulated nothing is known
+  result.passed = was_run;
   std::vector<std::string> of_partners;
   for (const PartnerResult& partner : result.partners) of_partners.push_back(partner.outcome);
   for (const ExpectationWatch& watch : watches) {
     result.expectations.push_back(watch.result(result.outcome, of_partners, codes));
+    result.expectations.back().held = was_run && result.expectations.back().held;
     result.passed = result.passed && result.expectations.back().held;
   }
 }

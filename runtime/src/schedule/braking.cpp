@@ -1,6 +1,7 @@
 #include "schedule/braking.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "zwang/solver/base_analysis.hpp"
 
@@ -44,13 +45,27 @@ std::optional<lang::ValueRange>& range_of(AxisStatements& axis, Quantity quantit
   return axis.force;
 }
 
+/// The level of the first driver: it may break a range of a later one.
+int first_driven_level(const std::vector<lang::Group>& groups) {
+  int first = std::numeric_limits<int>::max();
+  for (const lang::Group& group : groups) {
+    for (const AxisStatements& axis : group.axes) {
+      if (axis.driver) first = std::min(first, axis.level);
+    }
+  }
+  return first;
+}
+
+/// Whether one of their ranges takes the place of the limit: one that no driver breaks. `driven` is the level
+/// of the first one.
 bool gives(const std::vector<lang::Group>& groups, const lang::BaseLimit& limit,
-           const std::vector<lang::FrameDeclaration>& frames) {
+           const std::vector<lang::FrameDeclaration>& frames, int driven) {
   for (const lang::Group& group : groups) {
     if (group.kind != lang::GroupKind::axes) continue;
     if (!is_base(frames, group.move) || !is_base(frames, group.in)) continue;
     for (AxisStatements axis : group.axes) {
-      if (!axis.is_planar && axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
+      const bool holds = !axis.weight && axis.level <= driven;
+      if (holds && !axis.is_planar && axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
     }
   }
   return false;
@@ -176,8 +191,10 @@ void add_limits(lang::Task& task, const lang::Always& always, const lang::Robot&
                 const std::vector<lang::FrameDeclaration>& frames) {
   if (robot.model.has_fixed_base()) return;
   lang::Group group = group_on_base("limits", base);
+  const int driven = std::min(first_driven_level(task.groups), first_driven_level(always.groups));
   for (const lang::BaseLimit& limit : robot.limits) {
-    if (!gives(task.groups, limit, frames) && !gives(always.groups, limit, frames)) limit_axis(group, limit);
+    if (!gives(task.groups, limit, frames, driven) && !gives(always.groups, limit, frames, driven))
+      limit_axis(group, limit);
   }
   if (!group.axes.empty()) task.groups.push_back(group);
 }
