@@ -5,7 +5,7 @@
 //
 //   v      the base's speed limit in a task in which the exit is asked for
 //   a, T   the deceleration that the ranges of the task that stands leave, and its time constant; at `done`
-//          and `failed` the robot file's `stop`, and no T
+//          and `failed` the robot file's `stop`, as far as the motors make it, and no T
 //   reach  of the footprint from the base's origin, from where a distance counts. A guard nearer than that
 //          counts from the footprint.
 //
@@ -17,11 +17,13 @@
 // If two guards read one signal, the wider one fires first. The task that it leads to gives the base's speed.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check/cases.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "physics/questions.hpp"
 #include "zwang/lang/condition_function.hpp"
+#include "zwang/solver/base_analysis.hpp"
 
 namespace zwang::lang {
 
@@ -217,7 +219,8 @@ class StoppingQuestion {
     Braking braking;
     if (target == "done" || target == "failed") {
       const Stop& stop = probe_.robot().stop;
-      braking.deceleration = std::min(stop.deceleration, stop.force / probe_.robot().model.total_mass());
+      braking.deceleration =
+          std::min({stop.deceleration, stop.force / probe_.robot().model.total_mass(), of_motors()});
       return braking;
     }
     const std::optional<int> task = context_.symbols.find_task(target);
@@ -237,6 +240,19 @@ class StoppingQuestion {
     if (!stands) return std::nullopt;
     braking.delay = 0.5 * blend_of(context_, text);
     return braking;
+  }
+
+  /// What the motors make of the stop ahead and sideways, where the base can go that way. A drive that takes
+  /// velocities may have no torque in the model.
+  double of_motors() const {
+    const Robot& robot = probe_.robot();
+    const solver::BaseAnalysis base = solver::analyse_base(robot.model, start_state(robot));
+    double least = std::numeric_limits<double>::infinity();
+    for (const solver::AxisAnalysis& axis : {base.axes[0], base.axes[1]}) {
+      if (axis.reachable && axis.largest_force > 0.0)
+        least = std::min(least, axis.largest_force / axis.effective_mass);
+    }
+    return least;
   }
 
   /// The least of what the ranges along the axis leave, whichever way the base goes. Casters that trail along
