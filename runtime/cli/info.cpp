@@ -86,9 +86,9 @@ constexpr double longest_run = 1e8;           // [s] three years: a clock beyond
 /// `from 0 s to 11.05 s`. A robot's clock counts from 1970: its times are told as a date, and since the
 /// begin.
 std::string span_of(const runtime::LogContents& log) {
-  if (log.begin < longest_run) return "from " + with_unit(log.begin, "s") + " to " + with_unit(log.end, "s");
   // A damaged log may hold any number.
-  if (!(log.begin < last_date)) return "from " + with_unit(log.begin, "s") + " to " + with_unit(log.end, "s");
+  const bool is_date = log.begin >= longest_run && log.begin < last_date;
+  if (!is_date) return "from " + with_unit(log.begin, "s") + " to " + with_unit(log.end, "s");
   const auto seconds = static_cast<std::time_t>(log.begin);
   char date[40];
   std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S UTC", std::gmtime(&seconds));

@@ -21,7 +21,6 @@ namespace zwang::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// A log, and the robot that it is of.
@@ -177,22 +176,18 @@ std::vector<lang::MeasuredFriction> frictions_of(const runtime::Identification& 
   return frictions;
 }
 
-double mass_of(const lang::Robot& robot) {
-  double mass = 0.0;
-  for (const solver::Body& body : robot.model.bodies()) mass += body.inertia.mass;
-  return mass;
-}
-
 /// The log says the file's path from a folder that may be another one: there may stand another robot.
 void require_robot_of_log(const std::string& file, const lang::Robot& logged) {
   if (!std::filesystem::is_regular_file(file))
     throw Impossible(file + ": no such file, seen from here; name the robot file with --update");
   lang::Diagnostics diagnostics;
   const auto robot = lang::load_robot(file, diagnostics);
+  if (!robot) return;
   constexpr double rounding = 1e-9;
-  if (robot && std::abs(mass_of(*robot) - mass_of(logged)) > rounding * mass_of(logged))
-    throw Impossible(file + ": weighs " + with_unit(mass_of(*robot), "kg") + ", the log's robot " +
-                     with_unit(mass_of(logged), "kg") + "; if it is that robot, name it with --update");
+  const double mass = robot->model.total_mass(), of_log = logged.model.total_mass();
+  if (std::abs(mass - of_log) > rounding * of_log)
+    throw Impossible(file + ": weighs " + with_unit(mass, "kg") + ", the log's robot " +
+                     with_unit(of_log, "kg") + "; if it is that robot, name it with --update");
 }
 
 /// Writes the file; an error where it is not of that robot.

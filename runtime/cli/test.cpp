@@ -128,7 +128,7 @@ std::string page_of(const TestArguments& arguments) {
   return arguments.out.value_or("test-report.html");
 }
 
-/// What would not be written, or be lost, is told before the runs.
+/// Throws, before the runs, where a result could not be written, or something would be lost by it.
 void require_places(const TestArguments& arguments) {
   if (arguments.junit) require_place_of_result(*arguments.junit);
   if (!arguments.report) return;

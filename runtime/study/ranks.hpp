@@ -40,7 +40,7 @@ void run_with_ranks(const std::vector<std::size_t>& cells, const WorkSettings& s
 void serve_rank(const WorkSettings& settings, const WorkCalls& calls, const std::string& identity,
                 Messages& messages);
 
-/// Each rank that could not read the study; the ones that could run no cell then.
+/// Rank 0 or another one that could not read the study: the job ends, without a cell.
 void end_without_study(Messages& messages);
 
 }  // namespace zwang::study

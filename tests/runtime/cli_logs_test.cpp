@@ -126,7 +126,7 @@ TEST_F(Logs, OfARunBeforeAreGone) {
   EXPECT_TRUE(told({"info", "log"})["whole"]);
 }
 
-/// What a user wrote, and what took hours, is not replaced by a result.
+/// A result replaces neither a file that a user wrote nor one that took hours.
 TEST_F(Logs, AndFilesThatAreReadAreNotWrittenOver) {
   ASSERT_EQ(run("a").code, 0);
   write("scenario.yaml", "zwang_scenario: 1\ntask: task.yaml\nexpect: [{outcome: done}]\n");

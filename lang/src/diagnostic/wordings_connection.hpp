@@ -38,8 +38,9 @@ Diagnostic stale_too_late(const Span& span, double stale_after);
 Diagnostic stale_at_once(const Span& span, double stale_after, double sampled);
 /// `rate` [1/s] above that of the ticks, `period` [s].
 Diagnostic rate_too_high(const Span& span, double rate, double period);
-/// `rate` [1/s] so low that a stop leaves later than `stale_after` [s].
+/// `rate` below that on which the robot file's drive counts. [1/s]
 Diagnostic rate_below_drive(const Span& span, double rate, double of_drive);
+/// `rate` [1/s] so low that a stop leaves later than `stale_after` [s].
 Diagnostic rate_too_low(const Span& span, double rate, double stale_after);
 Diagnostic tasks_without_goals(const Span& span);
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic);

@@ -254,8 +254,8 @@ bool is_base(const solver::AttachedFrame& frame) {
   return frame.body == 0 && frame.pose.position.isZero() && frame.pose.rotation.isIdentity();
 }
 
-/// In force where `always` and the task give none on the base's own axis, or one that a driver may break: on
-/// a later level, or with a weight.
+/// In force where `always` and the task give none on the base's own axis. A range does not count that a
+/// driver may break: one on a later level, or with a weight.
 void add_robot_limits(const CheckContext& context, std::vector<PlannedAxis>& axes) {
   const std::size_t given = axes.size();
   int driven = std::numeric_limits<int>::max();

@@ -17,7 +17,6 @@
 // If two guards read one signal, the wider one fires first. The task that it leads to gives the base's speed.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "check/cases.hpp"
 #include "diagnostic/wordings_never.hpp"
@@ -29,7 +28,6 @@ namespace zwang::lang {
 
 namespace {
 
-using solver::Axis;
 using solver::Quantity;
 
 /// How the base comes to rest once the guard is true.
@@ -218,9 +216,8 @@ class StoppingQuestion {
     const std::string& target = exit.target.text;
     Braking braking;
     if (target == "done" || target == "failed") {
-      const Stop& stop = probe_.robot().stop;
-      braking.deceleration =
-          std::min({stop.deceleration, stop.force / probe_.robot().model.total_mass(), of_motors()});
+      if (!stop_deceleration_) stop_deceleration_ = stop_deceleration();
+      braking.deceleration = *stop_deceleration_;
       return braking;
     }
     const std::optional<int> task = context_.symbols.find_task(target);
@@ -242,12 +239,12 @@ class StoppingQuestion {
     return braking;
   }
 
-  /// What the motors make of the stop ahead and sideways, where the base can go that way. A drive that takes
-  /// velocities may have no torque in the model.
-  double of_motors() const {
+  /// The robot file's, as far as the motors make it ahead and sideways, where the base can go that way. A
+  /// drive that takes velocities may have no torque in the model.
+  double stop_deceleration() const {
     const Robot& robot = probe_.robot();
     const solver::BaseAnalysis base = solver::analyse_base(robot.model, start_state(robot));
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::min(robot.stop.deceleration, robot.stop.force / robot.model.total_mass());
     for (const solver::AxisAnalysis& axis : {base.axes[0], base.axes[1]}) {
       if (axis.reachable && axis.largest_force > 0.0)
         least = std::min(least, axis.largest_force / axis.effective_mass);
@@ -301,6 +298,7 @@ class StoppingQuestion {
   const CheckContext& context_;
   const ExitConditions& conditions_;
   Probe& probe_;
+  std::optional<double> stop_deceleration_;  ///< once it was asked for
   Remarks& remarks_;
 };
 
